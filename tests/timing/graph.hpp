@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+// A dataflow graph as plain data, for the model and for the reference to build from.
+#pragma once
+
+#include <cstdint>
+#include <ostream>
+#include <vector>
+
+#include "tlm/schedule.hpp"
+#include "tlm/stream_base.hpp"
+
+namespace parallax::test {
+
+/// Phases that are gone through `repeat` times.
+struct GraphPart {
+  std::uint64_t repeat = 1;
+  std::vector<Phase> phases;
+};
+
+struct GraphNode {
+  enum class Kind { kStage, kSource, kSink };
+  Kind kind = Kind::kStage;
+  int clock = 0;  ///< index into Graph::periods
+  // Stage:
+  std::uint32_t latency = 1;
+  std::vector<GraphPart> parts;  ///< of one frame
+  // Source and sink: the least number of cycles between tokens i-1 and i, minus one.
+  std::vector<std::uint32_t> stalls;
+};
+
+struct GraphEdge {
+  int from = 0, from_port = 0;  ///< several edges from one port: a fork
+  int to = 0, to_port = 0;
+  std::uint32_t depth = 1;
+  std::uint32_t write_to_read = 1;
+  std::uint32_t read_to_write = 1;
+};
+
+struct Graph {
+  /// Clock periods in units of 1/30e9 s; divisors of 30e9 so that the frequency is a whole number.
+  std::vector<std::int64_t> periods{10};
+  std::vector<GraphNode> nodes;
+  std::vector<GraphEdge> edges;
+};
+
+inline constexpr std::int64_t kUnitsPerSecond = 30'000'000'000;
+
+/// Per edge, in cycles of the side: when each token was written and read.
+struct EdgeDates {
+  std::vector<std::int64_t> written;
+  std::vector<std::int64_t> read;
+  std::uint64_t high_water = 0;
+};
+
+inline Schedule schedule_of(const GraphNode& node) {
+  Schedule schedule;
+  for (const GraphPart& part : node.parts) schedule.repeat(part.repeat, part.phases);
+  return schedule;
+}
+
+inline std::ostream& operator<<(std::ostream& out, const Graph& graph) {
+  for (std::size_t i = 0; i < graph.nodes.size(); ++i) {
+    const GraphNode& n = graph.nodes[i];
+    out << "\n  node " << i << " period " << graph.periods[static_cast<std::size_t>(n.clock)];
+    if (n.kind != GraphNode::Kind::kStage) {
+      out << (n.kind == GraphNode::Kind::kSource ? " source" : " sink") << ", stalls";
+      for (const std::uint32_t stall : n.stalls) out << " " << stall;
+      continue;
+    }
+    out << " latency " << n.latency;
+    for (const GraphPart& part : n.parts) {
+      out << ", " << part.repeat << " times";
+      for (const Phase& p : part.phases) {
+        out << " {" << p.count << " every " << p.interval << " in " << int{p.consume} << " out " << int{p.produce}
+            << "}";
+      }
+    }
+  }
+  for (const GraphEdge& e : graph.edges) {
+    out << "\n  edge " << e.from << "." << e.from_port << " -> " << e.to << "." << e.to_port << " depth "
+        << e.depth << " +" << e.write_to_read << " +" << e.read_to_write;
+  }
+  return out;
+}
+
+}  // namespace parallax::test

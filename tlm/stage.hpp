@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <systemc>
+#include <vector>
+
+#include "tlm/clock_domain.hpp"
+#include "tlm/dataflow.hpp"
+#include "tlm/schedule.hpp"
+#include "tlm/stream.hpp"
+#include "tlm/units.hpp"
+
+namespace parallax {
+
+/// When one frame went through a stage, in cycles of its clock.
+struct FrameDates {
+  Cycles first_firing;
+  Cycles last_firing;
+  Cycles last_write;
+};
+
+/// Where a stage's time went, in cycles of its clock.
+struct StageStatistics {
+  std::uint64_t firings = 0;
+  Cycles busy;     ///< firing with a token on some port
+  Cycles idle;     ///< declared row and frame overheads
+  Cycles starved;  ///< held back by an empty input
+  Cycles blocked;  ///< held back by a full output
+};
+
+/// A hardware stage: an SC_MODULE that fires by a fixed schedule.
+///
+/// Firing k starts in the first cycle s(k) >= s(k-1) + interval in which every input it reads has a token and
+/// the pipeline has room; it reads its inputs in s(k) and writes its outputs, all in the same cycle, in the
+/// first cycle w(k) >= s(k) + latency, after the firing before it has written, in which every one of them has
+/// room. The pipeline is `latency` registers with a handshake each: bubbles close up under back-pressure, and
+/// a firing enters when the firing `latency` places ahead leaves, s(k) >= w(k - latency). With latency 0
+/// reading and writing are one cycle. Firings that write nothing take no place in the pipeline.
+///
+/// A subclass declares its ports (their order numbers the bits of PortMask), gives the schedule of one frame,
+/// and hangs its kernel on the rows of its inputs (Stream::on_row). Frames follow one another without end.
+class Stage : public sc_core::sc_module, public Actor {
+ public:
+  static constexpr std::size_t kMaxPorts = 8;
+
+  const ClockDomain& clock() const { return clock_; }
+  std::uint32_t latency() const { return latency_; }
+  const Schedule& schedule() const { return schedule_; }
+  const StageStatistics& statistics() const { return statistics_; }
+  /// One entry a frame whose first firing is known; the last one may be unfinished.
+  const std::vector<FrameDates>& frames() const { return frames_; }
+
+ protected:
+  /// `clock` and `dataflow` must outlive the stage.
+  Stage(const sc_core::sc_module_name& name, const ClockDomain& clock, Dataflow& dataflow,
+        std::uint32_t latency);
+
+  /// The schedule of one frame; to be called before the simulation starts.
+  void set_schedule(Schedule schedule) { schedule_ = std::move(schedule); }
+
+  /// The stage stops after so many frames; 0 = never. For sources: a stage with inputs ends with its input.
+  void set_frame_limit(std::uint64_t frames) { frame_limit_ = frames; }
+
+  void end_of_elaboration() override;
+  void start_of_simulation() override;
+  void advance() override;
+
+ private:
+  struct Pending {  // a firing in the pipeline whose writing date is not known yet
+    Cycles start;
+    PortMask produce;
+    std::uint32_t frame;
+  };
+  struct Position {  // of the next firing in the schedule
+    std::size_t segment = 0;
+    std::uint64_t pass = 0;
+    std::uint32_t phase = 0;
+    std::uint32_t count = 0;
+  };
+
+
+  bool fire();
+  void drain();
+  bool write(const Pending& firing, Cycles earliest);
+  void step(const Phase& phase);
+  template <class Function>
+  void for_each(const std::array<std::vector<StreamBase*>, kMaxPorts>& ports, PortMask mask,
+                Function function);
+
+  const ClockDomain& clock_;
+  Dataflow& dataflow_;
+  const std::uint32_t latency_;
+  Schedule schedule_;
+  std::uint64_t frame_limit_ = 0;
+  std::array<std::vector<StreamBase*>, kMaxPorts> inputs_;
+  std::array<std::vector<StreamBase*>, kMaxPorts> outputs_;
+
+  Position next_;
+  Cycles free_{0};            // first cycle in which the stage can fire again
+  std::deque<Pending> pipe_;  // at most latency_
+  std::vector<Cycles> left_;  // when the last latency_ firings left the pipeline
+  std::uint64_t left_count_ = 0;
+  Cycles last_write_{-1};
+  StageStatistics statistics_;
+  std::vector<FrameDates> frames_;
+};
+
+}  // namespace parallax

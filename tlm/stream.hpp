@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <systemc>
+#include <utility>
+#include <vector>
+
+#include "tlm/stream_base.hpp"
+
+namespace parallax {
+
+/// A stream with values. Dates and values travel apart: dates token by token (StreamBase), values row by row
+/// and ahead of their dates, since no value in this machine depends on time. A reader that works on rows
+/// takes each as it is sent; for a reader in kernel time the values wait until it reads them.
+template <class T>
+class Stream final : public StreamBase {
+ public:
+  using Row = std::function<void(const T* row)>;
+
+  using StreamBase::StreamBase;
+
+  /// The reader takes rows of `length` tokens. Rows that a writer delivers token by token are collected.
+  void on_row(std::size_t length, Row take) {
+    row_length_ = length;
+    take_ = std::move(take);
+  }
+
+  /// The writer hands over the values of the next `length` tokens.
+  void send_row(const T* row, std::size_t length) {
+    if (take_ && length == row_length_ && values_.empty()) {
+      take_(row);
+      return;
+    }
+    values_.insert(values_.end(), row, row + length);
+    deliver_collected();
+  }
+
+  /// For threads in kernel time: reads one token in the first cycle in which that is possible. The value must
+  /// have been sent by then, which every writer in this library does before the token's date.
+  T read() {
+    wait_readable();
+    release();
+    T value = values_.front();
+    values_.pop_front();
+    return value;
+  }
+
+  /// For threads in kernel time: writes one token in the first cycle in which that is possible.
+  void write(const T& value) {
+    wait_writable();
+    values_.push_back(value);
+    deliver_collected();
+    commit();
+  }
+
+ private:
+  void deliver_collected() {
+    while (take_ && values_.size() >= row_length_) {
+      const auto end = values_.begin() + static_cast<std::ptrdiff_t>(row_length_);
+      const std::vector<T> row(values_.begin(), end);
+      values_.erase(values_.begin(), end);
+      take_(row.data());
+    }
+  }
+
+  std::size_t row_length_ = 0;
+  Row take_;
+  std::deque<T> values_;
+};
+
+/// What a stage needs of a port whatever its token type.
+class StreamPort {
+ public:
+  virtual ~StreamPort() = default;
+  virtual bool is_input() const = 0;
+  virtual std::vector<StreamBase*> streams() = 0;
+};
+
+/// Input port of a stage: reads one stream.
+template <class T>
+class StreamIn final : public sc_core::sc_port<Stream<T>, 1>, public StreamPort {
+ public:
+  using sc_core::sc_port<Stream<T>, 1>::sc_port;
+
+  bool is_input() const override { return true; }
+  std::vector<StreamBase*> streams() override { return {(*this)[0]}; }
+
+ private:
+  void end_of_elaboration() override {
+    sc_core::sc_object* module = this->get_parent_object();
+    (*this)[0]->attach_reader(module->name(), dynamic_cast<Actor*>(module));
+  }
+};
+
+/// Output port of a stage: writes one stream, or the same tokens to several in the same cycle (a fork).
+template <class T>
+class StreamOut final : public sc_core::sc_port<Stream<T>, 0>, public StreamPort {
+ public:
+  using sc_core::sc_port<Stream<T>, 0>::sc_port;
+
+  bool is_input() const override { return false; }
+  std::vector<StreamBase*> streams() override {
+    std::vector<StreamBase*> bound;
+    for (int i = 0; i < this->size(); ++i) bound.push_back((*this)[i]);
+    return bound;
+  }
+  /// Hands the values of the next `length` tokens to every bound stream.
+  void send_row(const T* row, std::size_t length) {
+    for (int i = 0; i < this->size(); ++i) (*this)[i]->send_row(row, length);
+  }
+
+ private:
+  void end_of_elaboration() override {
+    sc_core::sc_object* module = this->get_parent_object();
+    for (int i = 0; i < this->size(); ++i) {
+      (*this)[i]->attach_writer(module->name(), dynamic_cast<Actor*>(module));
+    }
+  }
+};
+
+}  // namespace parallax

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <type_traits>
+
+namespace parallax {
+
+/// An integer with a unit: two quantities of different units neither add nor compare.
+template <class Tag>
+class Quantity {
+ public:
+  using Rep = std::int64_t;
+
+  constexpr Quantity() = default;
+  template <class Int, class = std::enable_if_t<std::is_integral_v<Int>>>
+  explicit constexpr Quantity(Int count) : count_(static_cast<Rep>(count)) {}
+
+  constexpr Rep count() const { return count_; }
+
+  constexpr Quantity& operator+=(Quantity o) { return count_ += o.count_, *this; }
+  constexpr Quantity& operator-=(Quantity o) { return count_ -= o.count_, *this; }
+  friend constexpr Quantity operator+(Quantity a, Quantity b) { return a += b; }
+  friend constexpr Quantity operator-(Quantity a, Quantity b) { return a -= b; }
+  friend constexpr Quantity operator*(Quantity a, Rep n) { return Quantity(a.count_ * n); }
+  friend constexpr bool operator==(Quantity a, Quantity b) { return a.count_ == b.count_; }
+  friend constexpr bool operator!=(Quantity a, Quantity b) { return a.count_ != b.count_; }
+  friend constexpr bool operator<(Quantity a, Quantity b) { return a.count_ < b.count_; }
+  friend constexpr bool operator<=(Quantity a, Quantity b) { return a.count_ <= b.count_; }
+  friend constexpr bool operator>(Quantity a, Quantity b) { return a.count_ > b.count_; }
+  friend constexpr bool operator>=(Quantity a, Quantity b) { return a.count_ >= b.count_; }
+
+ private:
+  Rep count_ = 0;
+};
+
+/// A number or a date in cycles of one clock domain. Which domain is said by whoever hands it out.
+using Cycles = Quantity<struct CyclesTag>;
+using Bytes = Quantity<struct BytesTag>;
+using Bits = Quantity<struct BitsTag>;
+
+/// A clock frequency, exact.
+using Hertz = Quantity<struct HertzTag>;
+
+}  // namespace parallax
