@@ -2,6 +2,7 @@
 #include "platform/evaluation.hpp"
 
 #include <cstdlib>
+#include <fstream>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
@@ -19,11 +20,8 @@ std::string size_text(int width, int height) { return std::to_string(width) + "x
 
 cv::Mat read_image(const char* what, const std::string& path, int width, int height) {
   cv::Mat image;
-  try {
-    image = cv::imread(path, cv::IMREAD_UNCHANGED);
-  } catch (const cv::Exception&) {
-    image.release();
-  }
+  // OpenCV writes a warning of its own about a file that it cannot open.
+  if (std::ifstream(path).good()) image = cv::imread(path, cv::IMREAD_UNCHANGED);
   if (image.empty()) throw UserError(path + ": cannot read the " + what + " (missing, or not an image)");
   if (image.cols != width || image.rows != height) {
     throw UserError(path + ": the " + what + " is " + size_text(image.cols, image.rows) +
