@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "modules/hamming_row.hpp"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace parallax {
+namespace {
+
+std::uint8_t byte_of(CensusCode code, int index) { return static_cast<std::uint8_t>(code >> (8 * index)); }
+
+/// out[i] (+)= number of bits in which code and others[i] differ; bytewise, because baseline x86-64 has no
+/// instruction that counts bits.
+template <bool kAdd>
+void count_differences(std::uint8_t code, const std::uint8_t* __restrict others, int n,
+                       std::uint8_t* __restrict out) {
+  for (int i = 0; i < n; ++i) {
+    auto v = static_cast<std::uint8_t>(code ^ others[i]);
+    v = static_cast<std::uint8_t>(v - ((v >> 1) & 0x55));
+    v = static_cast<std::uint8_t>((v & 0x33) + ((v >> 2) & 0x33));
+    v = static_cast<std::uint8_t>((v + (v >> 4)) & 0x0F);
+    out[i] = static_cast<std::uint8_t>(kAdd ? out[i] + v : v);
+  }
+}
+
+}  // namespace
+
+HammingRow::HammingRow(DisparityRange range, OutsideCost outside, int width, int code_bits)
+    : range_(range),
+      outside_(outside),
+      width_(width),
+      code_bits_(code_bits),
+      planes_((code_bits + 7) / 8),
+      plane_size_(width + range.last()) {
+  right_.resize(static_cast<std::size_t>(planes_) * static_cast<std::size_t>(plane_size_));
+}
+
+void HammingRow::compute(const CensusCode* left, const CensusCode* right, std::uint8_t* costs) {
+  const CensusCode outside = outside_ == OutsideCost::kReplicate ? right[0] : CensusCode{0};
+  for (int plane = 0; plane < planes_; ++plane) {
+    std::uint8_t* out = right_.data() + plane * plane_size_;
+    for (int x = 0; x < width_; ++x) out[width_ - 1 - x] = byte_of(right[x], plane);
+    std::fill(out + width_, out + plane_size_, byte_of(outside, plane));
+  }
+  const int count = range_.count;
+  for (int x = 0; x < width_; ++x, costs += count) {
+    const std::uint8_t* first = right_.data() + (width_ - 1 - x + range_.offset);
+    count_differences<false>(byte_of(left[x], 0), first, count, costs);
+    for (int plane = 1; plane < planes_; ++plane) {
+      count_differences<true>(byte_of(left[x], plane), first + plane * plane_size_, count, costs);
+    }
+    if (outside_ == OutsideCost::kMaximum) {
+      const int inside = std::clamp(x - range_.offset + 1, 0, count);
+      std::fill(costs + inside, costs + count, static_cast<std::uint8_t>(code_bits_));
+    }
+  }
+}
+
+}  // namespace parallax

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "modules/matching.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "modules/hamming_row.hpp"
+#include "modules/path_costs.hpp"
+#include "tlm/error.hpp"
+
+namespace parallax {
+namespace {
+
+constexpr int kMaxDisparities = 256;
+constexpr int kMaxPenalty = 255;
+
+int bits_for(int largest) {
+  int bits = 1;
+  while (largest >> bits) ++bits;
+  return bits;
+}
+
+int path_count(unsigned paths) {
+  int count = 0;
+  for (; paths != 0; paths &= paths - 1) ++count;
+  return count;
+}
+
+void check(const char* key, int value, int low, int high) {
+  if (value < low || value > high) {
+    throw UserError(fmt::format("matching.{} = {}: must be within {}..{}", key, value, low, high));
+  }
+}
+
+std::size_t product(int a, int b) { return static_cast<std::size_t>(a) * static_cast<std::size_t>(b); }
+
+/// The northern and horizontal paths of `paths` as delay lines; `turned`: the paths opposite to the southern
+/// ones, for a frame that is read backwards.
+std::vector<Path> make_paths(const MatchingConfig& config, int width, bool turned) {
+  struct Entry {
+    unsigned bit;
+    Path::Direction direction;
+  };
+  const std::vector<Entry> first = {
+      {kPathW, {-1, 0}}, {kPathNW, {-1, 1}}, {kPathN, {0, 1}}, {kPathNE, {1, 1}}};
+  const std::vector<Entry> second = {{kPathSE, {-1, 1}}, {kPathS, {0, 1}}, {kPathSW, {1, 1}}};
+  std::vector<Path> paths;
+  for (const Entry& entry : turned ? second : first) {
+    if (config.paths & entry.bit) paths.emplace_back(entry.direction, config, width);
+  }
+  return paths;
+}
+
+}  // namespace
+
+void MatchingConfig::validate() const {
+  check("parallelism", parallelism, 1, kMaxDisparities);
+  check("iterations", iterations, 1, kMaxDisparities);
+  check("disparity_offset", disparity_offset, 0, kMaxDisparities - 1);
+  if (disparity_offset + iterations * parallelism > kMaxDisparities) {
+    throw UserError(
+        fmt::format("matching.disparity_offset + matching.iterations x matching.parallelism = {} + {} x {} = "
+                    "{}: must be at most {}",
+                    disparity_offset, iterations, parallelism, disparity_offset + iterations * parallelism,
+                    kMaxDisparities));
+  }
+  check("p1", p1, 0, kMaxPenalty);
+  check("p2", p2, 0, kMaxPenalty);
+  if (p1 >= p2) throw UserError(fmt::format("matching.p1 = {}: must be below matching.p2 = {}", p1, p2));
+  if (paths == 0 || paths > kEightPaths) {
+    throw UserError(
+        fmt::format("matching.paths = {:#x}: must name one to eight of w, nw, n, ne, e, sw, s, se", paths));
+  }
+}
+
+struct Matching::State {
+  State(const MatchingConfig& matching, int columns, int rows, int bits)
+      : config(matching),
+        width(columns),
+        height(rows),
+        code_bits(bits),
+        count(matching.range().count),
+        hamming(matching.range(), matching.outside_cost, columns, bits),
+        first_pass(make_paths(matching, columns, false)),
+        second_pass(make_paths(matching, columns, true)),
+        costs(product(columns, count)),
+        sums(product(columns, count)) {
+    if (config.paths & kPathE) {
+      MatchingConfig restarting = config;
+      restarting.path_start = PathStart::kCost;
+      east.emplace(Path::Direction{-1, 0}, restarting, width);
+    }
+    if (!second_pass.empty()) {
+      left_codes.resize(product(width, height));
+      right_codes.resize(product(width, height));
+      frame_sums.resize(product(width, height) * static_cast<std::size_t>(count));
+    }
+  }
+
+  void match(const CensusCode* left, const CensusCode* right, Cost* out) {
+    hamming.compute(left, right, costs.data());
+    std::fill_n(out, product(width, count), Cost{0});
+    for (int x = 0; x < width; ++x) {
+      for (Path& path : first_pass) path.advance(x, row, costs.data() + x * count, out + x * count);
+    }
+    if (!east) return;
+    for (int i = 0; i < width; ++i) {
+      const int x = width - 1 - i;
+      east->advance(i, row, costs.data() + x * count, out + x * count);
+    }
+  }
+
+  /// The southern paths: the frame turned by 180 degrees, added to the sums of the first pass.
+  void sweep_back() {
+    for (int i = 0; i < height; ++i) {
+      const std::size_t first = product(height - 1 - i, width);
+      hamming.compute(left_codes.data() + first, right_codes.data() + first, costs.data());
+      for (int j = 0; j < width; ++j) {
+        const int x = width - 1 - j;
+        Cost* out = frame_sums.data() + first * static_cast<std::size_t>(count) + x * count;
+        for (Path& path : second_pass) path.advance(j, i, costs.data() + x * count, out);
+      }
+    }
+  }
+
+  MatchingConfig config;
+  int width;
+  int height;
+  int code_bits;
+  int count;
+  int row = 0;
+  HammingRow hamming;
+  std::vector<Path> first_pass;
+  std::vector<Path> second_pass;
+  std::optional<Path> east;  ///< runs through the row turned round
+  std::vector<std::uint8_t> costs;
+  std::vector<Cost> sums;
+
+  // The frame store; empty without southern paths.
+  std::vector<CensusCode> left_codes;
+  std::vector<CensusCode> right_codes;
+  std::vector<Cost> frame_sums;
+};
+
+Matching::Matching(const MatchingConfig& config, int width, int height, int code_bits) {
+  config.validate();
+  state_ = std::make_unique<State>(config, width, height, code_bits);
+}
+
+Matching::~Matching() = default;
+
+void Matching::push(const CensusCode* left, const CensusCode* right, const RowSink<Cost>& emit) {
+  State& s = *state_;
+  const std::size_t first = product(s.row, s.width);
+  const bool one_pass = s.second_pass.empty();
+  if (one_pass) {
+    s.match(left, right, s.sums.data());
+    emit(s.sums.data());
+  } else {
+    std::copy_n(left, s.width, s.left_codes.data() + first);
+    std::copy_n(right, s.width, s.right_codes.data() + first);
+    s.match(left, right, s.frame_sums.data() + first * static_cast<std::size_t>(s.count));
+  }
+  if (++s.row < s.height) return;
+  s.row = 0;
+  if (one_pass) return;
+  s.sweep_back();
+  for (int y = 0; y < s.height; ++y)
+    emit(s.frame_sums.data() + product(y, s.width) * static_cast<std::size_t>(s.count));
+}
+
+int Matching::look_ahead_rows() const { return state_->second_pass.empty() ? 0 : state_->height - 1; }
+
+int Matching::look_ahead_pixels() const {
+  return state_->config.paths & (kPathE | kSouthernPaths) ? state_->width - 1 : 0;
+}
+
+std::int64_t Matching::storage_bits() const {
+  const State& s = *state_;
+  const std::int64_t width = s.width;
+  const int path_bits = bits_for(s.code_bits + kMaxPenalty);
+  const std::int64_t pixel_bits = std::int64_t{path_bits} * (s.count + 1);  // with the minimum
+  const int northern = path_count(s.config.paths & (kPathNW | kPathN | kPathNE));
+  const int southern = path_count(s.config.paths & kSouthernPaths);
+  const int horizontal = path_count(s.config.paths & (kPathW | kPathE));
+  // The second pass runs after the first one: both share the lines.
+  std::int64_t bits = pixel_bits * (width * std::max(northern, southern) + horizontal);
+  bits += std::int64_t{s.code_bits} * s.config.range().last();
+  if (s.config.paths & kPathE) {
+    const int sum_bits = bits_for(path_count(s.config.paths) * (s.code_bits + kMaxPenalty));
+    bits += width * s.count * (bits_for(s.code_bits) + sum_bits);
+  }
+  return bits;
+}
+
+std::int64_t Matching::external_storage_bits() const {
+  const State& s = *state_;
+  if (s.second_pass.empty()) return 0;
+  const int first_paths = path_count(s.config.paths & ~kSouthernPaths);
+  const std::int64_t pixels = std::int64_t{s.width} * s.height;
+  const int sum_bits = first_paths == 0 ? 0 : bits_for(first_paths * (s.code_bits + kMaxPenalty));
+  return pixels * (std::int64_t{s.count} * sum_bits + 2 * s.code_bits);
+}
+
+}  // namespace parallax

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "modules/pixel.hpp"
+#include "modules/row_sink.hpp"
+#include "modules/winner.hpp"
+
+namespace parallax {
+
+/// Paths of semi-global matching, each named for where the predecessor lies. A set of paths is a sum of bits.
+enum PathBit : unsigned {
+  kPathW = 1U << 0,
+  kPathNW = 1U << 1,
+  kPathN = 1U << 2,
+  kPathNE = 1U << 3,
+  kPathE = 1U << 4,   ///< needs one row of costs held
+  kPathSW = 1U << 5,  ///< the southern paths need a second pass over the frame, bottom up
+  kPathS = 1U << 6,
+  kPathSE = 1U << 7,
+};
+inline constexpr unsigned kFourPaths = kPathW | kPathNW | kPathN | kPathNE;
+inline constexpr unsigned kSouthernPaths = kPathSW | kPathS | kPathSE;
+inline constexpr unsigned kEightPaths = 0xFF;
+
+/// Cost of comparing with a right pixel left of the image.
+enum class OutsideCost {
+  kMaximum,    ///< all bits differ
+  kReplicate,  ///< as the leftmost right pixel of the row
+  kZeroCode,   ///< as a right pixel with code 0
+};
+
+/// Predecessor of a pixel whose predecessor along the path is outside the image. Where there is none, L = C;
+/// a predecessor whose costs are all equal (a cleared register, say) gives the same.
+enum class PathStart {
+  kCost,       ///< none
+  kClamp,      ///< diagonal paths: the pixel straight above (below, for southern paths); others: none
+  kCarry,      ///< path W: the last pixel of the row above, as in a circuit that never clears its register;
+               ///< others: none
+  kDelayLine,  ///< paths W, NW, N, NE: the pixel 1, W+1, W, W-1 positions before in raster order, wherever
+               ///< that is (none before the frame's first pixel, or at distance 0), as in a circuit whose
+               ///< line buffer is a plain delay; southern paths: the same in the image turned by 180 degrees;
+               ///< E: none
+};
+
+struct MatchingConfig {
+  int parallelism = 32;  ///< p, comparisons per iteration, 1..256; S (paper)
+  int iterations = 4;  ///< n_i per pixel, 1..256; 4 for 128 disparities, 8 for 256 (D); offset + range <= 256
+  int disparity_offset = 0;  ///< o_d, px, 0..255; offset + range <= 256; S
+  int p1 = 8;                ///< penalty for a change of one disparity, 0..255, p1 < p2; S (device default)
+  int p2 = 42;               ///< penalty for a larger change, 0..255; S (device default)
+  unsigned paths = kFourPaths;  ///< set of PathBit, at least one; I: one pass over the image
+  OutsideCost outside_cost = OutsideCost::kMaximum;  ///< own choice
+  PathStart path_start = PathStart::kCost;           ///< own choice
+
+  DisparityRange range() const { return {disparity_offset, iterations * parallelism}; }
+  void validate() const;
+};
+
+/// Semi-global matching: census codes of a rectified pair to summed path costs.
+///
+/// With D = range().count and d = o_d + k, k = 0..D-1:
+///   C(x, y, k)   = number of bits in which left(x, y) and right(x - d, y) differ; OutsideCost when x - d <
+///   0. L_r(p, k)    = C(p, k) + min(L_r(q, k), L_r(q, k-1) + P1, L_r(q, k+1) + P1, m + P2) - m,
+///                  q = predecessor of p along path r, m = min_k L_r(q, k), terms with k-1 < 0 or k+1 >= D
+///                  left out; L_r(p, k) = C(p, k) where p has no predecessor (PathStart).
+///   output(p, k) = sum over the paths of L_r(p, k).
+/// L_r <= code_bits + P2 <= 318, so that the sum of eight paths fits in 12 bits.
+///
+/// Without southern paths nothing larger than some rows is held. With them the hardware writes the sums of
+/// the first pass (`external_storage_bits`) and both images' codes to memory and reads them back bottom up;
+/// this kernel holds the same frame store, and emits the whole frame, top to bottom, with the last row.
+class Matching {
+ public:
+  /// `code_bits` (1..63): meaningful bits of a code.
+  Matching(const MatchingConfig& config, int width, int height, int code_bits);
+  ~Matching();
+
+  /// One row of `width` codes of each image; emits rows of width * range().count costs.
+  void push(const CensusCode* left, const CensusCode* right, const RowSink<Cost>& emit);
+
+  int look_ahead_rows() const;
+  int look_ahead_pixels() const;
+
+  /// Path costs of one row per northern path, with their minima; of one pixel for the horizontal path; the
+  /// window of right codes; for path E, a row of costs and of sums.
+  std::int64_t storage_bits() const;
+
+  /// Frame store in external memory that southern paths need: sums of the first pass and both images' codes.
+  std::int64_t external_storage_bits() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace parallax

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "modules/noise_reduction.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "modules/require_range.hpp"
+#include "modules/similar.hpp"
+
+namespace parallax {
+
+namespace {
+
+constexpr int kDisparityBits = 12;
+constexpr int kLargestWindow = 7;
+
+}  // namespace
+
+void NoiseReductionConfig::validate() const {
+  require_odd_range("noise_reduction.window", window, 3, kLargestWindow);
+  require_range("noise_reduction.max_difference", max_difference, 0, kMaxDisparityDifference);
+}
+
+NoiseReduction::NoiseReduction(const NoiseReductionConfig& config, int width, int height)
+    : config_((config.validate(), config)),
+      width_(width),
+      height_(height),
+      half_(config.window / 2),
+      rows_(half_ + 1, width, 0, {}),
+      values_(2 * half_ + 1, width, half_, kSimilarToNone),
+      sums_(static_cast<std::size_t>(width)),
+      counts_(static_cast<std::size_t>(width)) {
+  reciprocals_.push_back(0);
+  for (std::uint64_t n = 1; n <= static_cast<std::uint64_t>(config.window * config.window); ++n) {
+    reciprocals_.push_back((std::uint64_t{1} << 32) / (2 * n) + 1);
+  }
+}
+
+void NoiseReduction::push(const Disparity* row, const RowSink<Disparity>& emit) {
+  if (!config_.enabled) return emit(row);
+  std::copy(row, row + width_, rows_.row(in_row_));
+  comparable_values(row, width_, values_.row(in_row_));
+  ++in_row_;
+  while (out_row_ < height_ && (in_row_ > out_row_ + half_ || in_row_ == height_)) {
+    // In place: the rows below read values_, which keeps the input.
+    Disparity* out = rows_.row(out_row_);
+    if (config_.kind == NoiseReductionKind::kMean) {
+      mean_row(out_row_, out);
+    } else {
+      median_row(out_row_, out);
+    }
+    emit(out);
+    ++out_row_;
+  }
+  if (in_row_ == height_) in_row_ = out_row_ = 0;
+}
+
+void NoiseReduction::mean_row(int y, Disparity* out) {
+  std::fill(sums_.begin(), sums_.end(), 0);
+  std::fill(counts_.begin(), counts_.end(), 0);
+  const std::uint16_t* centre = values_.row(y);
+  const auto max_difference = static_cast<std::uint16_t>(config_.max_difference);
+  std::uint32_t* sums = sums_.data();
+  std::uint16_t* counts = counts_.data();
+  for (int v = std::max(y - half_, 0); v <= std::min(y + half_, height_ - 1); ++v) {
+    for (int dx = -half_; dx <= half_; ++dx) {
+      const std::uint16_t* other = values_.row(v) + dx;
+      for (int x = 0; x < width_; ++x) {
+        const bool counted = similar(centre[x], other[x], max_difference);
+        sums[x] += counted ? other[x] : 0U;
+        counts[x] = static_cast<std::uint16_t>(counts[x] + counted);
+      }
+    }
+  }
+  for (int x = 0; x < width_; ++x) {
+    if (!out[x].valid()) continue;
+    const std::uint64_t dividend = std::uint64_t{2} * sums[x] + counts[x];
+    out[x].value = static_cast<std::uint16_t>((dividend * reciprocals_[counts[x]]) >> 32);
+  }
+}
+
+void NoiseReduction::median_row(int y, Disparity* out) {
+  std::array<std::uint16_t, kLargestWindow * kLargestWindow> members;
+  const std::uint16_t* centre = values_.row(y);
+  const auto max_difference = static_cast<std::uint16_t>(config_.max_difference);
+  for (int x = 0; x < width_; ++x) {
+    if (!out[x].valid()) continue;
+    auto end = members.begin();
+    for (int v = std::max(y - half_, 0); v <= std::min(y + half_, height_ - 1); ++v) {
+      const std::uint16_t* row = values_.row(v);
+      for (int u = x - half_; u <= x + half_; ++u) {
+        if (similar(centre[x], row[u], max_difference)) *end++ = row[u];
+      }
+    }
+    const auto middle = members.begin() + (end - members.begin() - 1) / 2;
+    std::nth_element(members.begin(), middle, end);
+    out[x].value = *middle;
+  }
+}
+
+int NoiseReduction::look_ahead_rows() const { return config_.enabled ? half_ : 0; }
+
+int NoiseReduction::look_ahead_pixels() const { return config_.enabled ? half_ : 0; }
+
+std::int64_t NoiseReduction::storage_bits() const {
+  if (!config_.enabled) return 0;
+  const std::int64_t line_buffers = std::int64_t{2} * half_ * width_ * kDisparityBits;
+  const std::int64_t window = std::int64_t{config_.window} * config_.window * kDisparityBits;
+  return line_buffers + window;
+}
+
+}  // namespace parallax

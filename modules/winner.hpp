@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the stages behind the matcher agree on: the searched range, ties, and the integer part of a disparity.
+#pragma once
+
+#include "modules/pixel.hpp"
+
+namespace parallax {
+
+/// The searched disparities: offset, offset + 1, ... offset + count - 1 (px). A row of costs holds `count`
+/// values a pixel, pixel by pixel; value k belongs to the disparity offset + k.
+struct DisparityRange {
+  int offset = 0;
+  int count = 128;
+
+  /// d_max = o_d + n_i * p - 1 (paper, section "Stereo Matching").
+  int last() const { return offset + count - 1; }
+};
+
+/// Which of several equally cheap disparities wins.
+enum class TieRule { kLowest, kHighest };
+
+/// Lowest of n costs; 0xFFFF if there is none.
+inline Cost lowest_cost(const Cost* costs, int n) {
+  Cost lowest = 0xFFFF;
+  for (int k = 0; k < n; ++k) lowest = costs[k] < lowest ? costs[k] : lowest;
+  return lowest;
+}
+
+/// The integer disparity (px) behind a valid 8.4 value: the nearest integer, and the lower one of two equally
+/// near. Subpixel refinement moves a winner by less than half a pixel, or by exactly half a pixel if and only
+/// if it ties with its neighbour; so this recovers the winner, or (TieRule::kHighest) the lower one of two
+/// neighbours that tie.
+inline int integer_disparity(Disparity d) { return (d.value + 7) >> kDisparityFractionBits; }
+
+}  // namespace parallax
