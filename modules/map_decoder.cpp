@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "modules/map_decoder.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <cstring>
+
+#include "tlm/error.hpp"
+
+namespace parallax {
+
+using namespace map_code;
+
+namespace {
+
+constexpr std::size_t kPadding = sizeof(std::uint64_t);
+
+std::uint64_t fetch(const std::uint8_t* bytes, std::size_t bit) {
+  std::uint64_t word = 0;
+  std::memcpy(&word, bytes + bit / 8, sizeof word);
+#if __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__
+  word = __builtin_bswap64(word);
+#endif
+  return word >> (bit % 8);
+}
+
+// The lowest `bits` bits as a two's complement number; 0 for no bits.
+std::int32_t sign_extend(std::uint32_t value, int bits) {
+  if (bits == 0) {
+    return 0;
+  }
+  const int unused = 32 - bits;
+  return static_cast<std::int32_t>(value << unused) >> unused;
+}
+
+struct Widths {
+  int dx;
+  int dy;
+};
+
+class ImageState {
+ public:
+  explicit ImageState(int offset_bits) : offset_bits_(offset_bits) {}
+
+  // `up` is the value above; the prediction is left + (up - upleft).
+  Offset next(const Offset& up, std::int32_t dx, std::int32_t dy) {
+    left_dx_ = wrap(left_dx_ + up.dx - upleft_.dx + dx);
+    left_dy_ = wrap(left_dy_ + up.dy - upleft_.dy + dy);
+    upleft_ = up;
+    return {static_cast<std::int16_t>(left_dx_), static_cast<std::int16_t>(left_dy_)};
+  }
+
+ private:
+  std::int32_t wrap(std::int32_t value) const {
+    return sign_extend(static_cast<std::uint32_t>(value), offset_bits_);
+  }
+
+  int offset_bits_;
+  std::int32_t left_dx_ = 0;
+  std::int32_t left_dy_ = 0;
+  Offset upleft_;
+};
+
+Offset take(const std::uint8_t* bytes, std::size_t& bit, const Widths& width, const Offset& up,
+            ImageState& state) {
+  const std::uint64_t word = fetch(bytes, bit);
+  const std::int32_t dx = sign_extend(static_cast<std::uint32_t>(word), width.dx);
+  const std::int32_t dy = sign_extend(static_cast<std::uint32_t>(word >> width.dx), width.dy);
+  bit += static_cast<std::size_t>(width.dx + width.dy);
+  return state.next(up, dx, dy);
+}
+
+const OffsetRange& validated(const OffsetRange& range) {
+  range.validate();
+  return range;
+}
+
+std::size_t blocks(int width) { return static_cast<std::size_t>((width + kBlockPixels - 1) / kBlockPixels); }
+
+}  // namespace
+
+std::size_t least_row_bytes(int width) { return blocks(width) * kHeaderBits / 8; }
+
+std::size_t worst_row_bytes(int width, const OffsetRange& range) {
+  const std::size_t residuals = static_cast<std::size_t>(width) * kComponents;
+  return (blocks(width) * kHeaderBits + residuals * static_cast<std::size_t>(range.offset_bits()) + 7) / 8;
+}
+
+MapDecoder::MapDecoder(const OffsetRange& range, int width, int height)
+    : range_(validated(range)),
+      offset_bits_(range_.offset_bits()),
+      width_(width),
+      height_(height),
+      previous_(static_cast<std::size_t>(width)),
+      bytes_(worst_row_bytes(width, range_) + kPadding) {}
+
+std::int64_t MapDecoder::storage_bits() const {
+  return static_cast<std::int64_t>(width_) * kComponents * offset_bits_;
+}
+
+void MapDecoder::fail(const char* what, int x, std::size_t bit) const {
+  throw UserError(
+      fmt::format("rectification map: row {}, pixel {} (byte {} of the row): {}", y_, x, bit / 8, what));
+}
+
+std::size_t MapDecoder::push(const std::uint8_t* bytes, std::size_t size, OffsetPair* out,
+                             std::uint32_t* end_bit) {
+  const std::size_t usable = std::min(size, bytes_.size() - kPadding);
+  std::copy_n(bytes, usable, bytes_.begin());
+  std::size_t used = 0;
+  try {
+    used = decode(usable, out, end_bit);
+    check_range(out);
+  } catch (const UserError&) {
+    y_ = 0;
+    std::fill(previous_.begin(), previous_.end(), OffsetPair{});
+    throw;
+  }
+  if (++y_ == height_) {
+    y_ = 0;
+    std::fill(previous_.begin(), previous_.end(), OffsetPair{});
+  } else {
+    std::copy_n(out, width_, previous_.begin());
+  }
+  return used;
+}
+
+std::size_t MapDecoder::decode(std::size_t size, OffsetPair* out, std::uint32_t* end_bit) const {
+  ImageState left(offset_bits_);
+  ImageState right(offset_bits_);
+  std::size_t bit = 0;
+  for (int begin = 0; begin < width_; begin += kBlockPixels) {
+    if (bit + kHeaderBits > size * 8) {
+      fail("the row ends before the block's header", begin, bit);
+    }
+    const std::uint64_t header = fetch(bytes_.data(), bit);
+    std::array<int, kComponents> widths{};
+    int pair_bits = 0;
+    for (std::size_t i = 0; i < widths.size(); ++i) {
+      widths[i] = static_cast<int>((header >> (i * kWidthFieldBits)) & ((1U << kWidthFieldBits) - 1U));
+      if (widths[i] > offset_bits_) {
+        fail("a residual is wider than an offset", begin, bit);
+      }
+      pair_bits += widths[i];
+    }
+    bit += kHeaderBits;
+    const int end = std::min(begin + kBlockPixels, width_);
+    if (bit + static_cast<std::size_t>((end - begin) * pair_bits) > size * 8) {
+      fail("the row ends within the block", begin, bit);
+    }
+    for (int x = begin; x < end; ++x) {
+      const OffsetPair& up = previous_[static_cast<std::size_t>(x)];
+      out[x].left = take(bytes_.data(), bit, {widths[0], widths[1]}, up.left, left);
+      out[x].right = take(bytes_.data(), bit, {widths[2], widths[3]}, up.right, right);
+      if (end_bit != nullptr) {
+        end_bit[x] = static_cast<std::uint32_t>(bit);
+      }
+    }
+  }
+  const std::size_t padding = (8 - bit % 8) % 8;
+  if ((fetch(bytes_.data(), bit) & ((1U << padding) - 1U)) != 0) {
+    fail("the bits that fill the last byte are not zero", width_ - 1, bit);
+  }
+  return (bit + padding) / 8;
+}
+
+void MapDecoder::check_range(const OffsetPair* row) const {
+  const int limit = range_.limit();
+  const auto beyond = [limit](const Offset& o) { return std::abs(o.dx) > limit || std::abs(o.dy) > limit; };
+  bool any = false;
+  for (int x = 0; x < width_; ++x) {
+    any |= beyond(row[x].left) | beyond(row[x].right);
+  }
+  if (!any) {
+    return;
+  }
+  for (int x = 0; x < width_; ++x) {
+    if (beyond(row[x].left) || beyond(row[x].right)) {
+      throw UserError(
+          fmt::format("rectification map: row {}, pixel {}: an offset is beyond the window of {} px", y_, x,
+                      range_.window));
+    }
+  }
+}
+
+}  // namespace parallax

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "modules/rectification_map.hpp"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+#include "tlm/error.hpp"
+
+namespace parallax {
+
+namespace {
+
+// The width field of the compressed map is 4 bits, so an offset has at most 15.
+constexpr int kLargestLimit = 16383;
+constexpr int kLargestWindow = 2047;
+constexpr int kLargestFractionBits = 8;
+
+}  // namespace
+
+void OffsetRange::validate() const {
+  if (window < 1 || window > kLargestWindow || window % 2 == 0) {
+    throw UserError(
+        fmt::format("rectification.window: {} is not an odd number in 1..{}", window, kLargestWindow));
+  }
+  if (fraction_bits < 0 || fraction_bits > kLargestFractionBits) {
+    throw UserError(
+        fmt::format("rectification.fraction_bits: {} is outside 0..{}", fraction_bits, kLargestFractionBits));
+  }
+  if (limit() > kLargestLimit) {
+    throw UserError(fmt::format(
+        "rectification.window: {} with {} fraction bits needs offsets of more than 15 bits; at most "
+        "{} with this many fraction bits",
+        window, fraction_bits, 2 * (kLargestLimit >> fraction_bits) + 1));
+  }
+}
+
+int OffsetRange::offset_bits() const {
+  int bits = 1;
+  while ((1 << (bits - 1)) <= limit()) {
+    ++bits;
+  }
+  return bits;
+}
+
+RectificationMap RectificationMap::columns(int first, int count) const {
+  if (first < 0 || count < 1 || first + count > width) {
+    throw std::out_of_range(
+        fmt::format("columns {}..{} of a map of width {}", first, first + count - 1, width));
+  }
+  RectificationMap part{count, height, range, {}};
+  part.offsets.reserve(static_cast<std::size_t>(count) * static_cast<std::size_t>(height));
+  for (int y = 0; y < height; ++y) {
+    part.offsets.insert(part.offsets.end(), row(y) + first, row(y) + first + count);
+  }
+  return part;
+}
+
+RectificationMap identity_map(int width, int height, const OffsetRange& range) {
+  range.validate();
+  if (width < 1 || height < 1) {
+    throw UserError(fmt::format("identity map: {}x{} is not an image size", width, height));
+  }
+  return {width, height, range,
+          std::vector<OffsetPair>(static_cast<std::size_t>(width) * static_cast<std::size_t>(height))};
+}
+
+}  // namespace parallax
