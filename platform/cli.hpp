@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <iosfwd>
+
+namespace parallax {
+
+/// The command line. Returns the exit code: 0 done and within budget; 1 the model ran and a check or budget
+/// failed; 2 bad input or configuration, with one line on standard error.
+int run_command_line(int argc, const char* const* argv);
+
+/// The same with other streams in place of standard output and standard error.
+int run_command_line(int argc, const char* const* argv, std::ostream& out, std::ostream& err);
+
+}  // namespace parallax

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+namespace parallax {
+
+class Schema;
+
+/// The Ethernet link to the connected computer.
+struct LinkConfig {
+  bool enabled = true;                        ///< off: results stay in the memory
+  std::int64_t line_rate = 1'000'000'000;     ///< bit/s, 1 to 10^12; S
+  std::uint32_t packet_payload_bytes = 1468;  ///< result bytes per packet, 1 to 65536; S
+  std::uint32_t packet_wire_bytes = 1538;     ///< bytes per packet on the wire, 1 to 65536; S
+  std::int64_t host_pixel_rate = 30'780'000;  ///< pixels/s that reach the host, 0 = no limit, up to 10^12; F
+
+  /// Throws UserError when a packet's payload is longer than the packet.
+  void validate() const;
+};
+
+void describe(Schema& schema, LinkConfig& config);
+
+}  // namespace parallax

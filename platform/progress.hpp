@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <ostream>
+#include <string>
+
+namespace parallax {
+
+/// Whether standard error is a terminal, the place of a progress bar.
+bool standard_error_is_terminal();
+
+/// "[==========          ] 42/100 frames, 3 s left" on one line that is drawn anew, at most ten times a
+/// second. Where it is not shown (a pipe, --quiet), it prints nothing at all.
+class Progress {
+ public:
+  using Clock = std::chrono::steady_clock;
+
+  Progress(std::ostream& out, bool shown, std::string what, std::int64_t total);
+  ~Progress();  ///< wipes the line, so that what follows starts on an empty one
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  void advance(std::int64_t count = 1, Clock::time_point now = Clock::now());
+
+  /// The line after `done` of `total` parts that took `elapsed`.
+  static std::string line(const std::string& what, std::int64_t done, std::int64_t total,
+                          std::chrono::duration<double> elapsed);
+
+ private:
+  std::ostream& out_;
+  bool shown_;
+  std::string what_;
+  std::int64_t total_;
+  std::int64_t done_ = 0;
+  Clock::time_point start_ = Clock::now();
+  Clock::time_point drawn_ = start_;
+};
+
+}  // namespace parallax

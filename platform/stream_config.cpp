@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "platform/stream_config.hpp"
+
+#include <algorithm>
+
+#include "platform/schema.hpp"
+
+namespace parallax {
+
+const std::vector<std::string>& pipeline_stream_names() {
+  static const std::vector<std::string> names{
+      "left_pixels",  "right_pixels", "map_bytes",   "map_entries",  "left_rectified", "right_rectified",
+      "left_texture", "left_codes",   "right_codes", "costs",        "subpixel",       "unique",
+      "consistent",   "textured",     "despeckled",  "interpolated", "output"};
+  return names;
+}
+
+StreamConfig::StreamConfig(const std::vector<std::string>& names) {
+  for (const std::string& name : names) depth[name] = 0;
+}
+
+std::uint32_t StreamConfig::resolve(const std::string& name, std::uint32_t needed) const {
+  const std::uint32_t configured = depth.at(name);
+  return configured != 0 ? configured : std::max(default_depth, needed);
+}
+
+void describe(Schema& schema, StreamConfig& config) {
+  schema.integer("streams.default_depth", config.default_depth, {1, 65536}, "tokens",
+                 "FIFO depth of every stream whose own depth is 0.", chosen("a distributed-memory FIFO"));
+  for (auto& [name, depth] : config.depth) {
+    schema.integer(
+        "streams." + name + ".depth", depth, {0, 1 << 24}, "tokens",
+        "FIFO depth of the stream " + name +
+            ". 0 is automatic: streams.default_depth, or more where paths that fork and meet again need it.",
+        chosen("automatic"));
+  }
+}
+
+}  // namespace parallax
