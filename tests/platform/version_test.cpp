@@ -3,17 +3,24 @@
 
 #include <gtest/gtest.h>
 
-#include <regex>
+#include <algorithm>
+#include <string>
 
 namespace parallax {
 namespace {
 
 TEST(Version, NamesTheRelease) {
-  EXPECT_TRUE(std::regex_match(version(), std::regex("[0-9]+\\.[0-9]+\\.[0-9]+"))) << version();
+  const std::string text = version();
+  EXPECT_EQ(text.find_first_not_of("0123456789."), std::string::npos) << text;
+  EXPECT_EQ(std::count(text.begin(), text.end(), '.'), 2) << text;
 }
 
 TEST(Version, NamesTheRevisionOrSaysThatItIsUnknown) {
-  EXPECT_TRUE(std::regex_match(revision(), std::regex("unknown|[0-9a-f]{12,40}(-dirty)?"))) << revision();
+  const std::string text = revision();
+  const std::string hash = text.substr(0, text.find('-'));
+  if (hash == "unknown") return;
+  EXPECT_EQ(hash.find_first_not_of("0123456789abcdef"), std::string::npos) << text;
+  EXPECT_GE(hash.size(), 12U) << text;
 }
 
 }  // namespace
