@@ -32,7 +32,8 @@ inline bool operator==(const OffsetPair& a, const OffsetPair& b) {
   return a.left == b.left && a.right == b.right;
 }
 
-/// What made a pixel invalid, or what its value came from. A model-side label: the device sends the value alone.
+/// What made a pixel invalid, or what its value came from. A model-side label: the device sends the value
+/// alone.
 enum class Cause : std::uint8_t {
   kMatched = 0,       ///< valid, from matching
   kInterpolated = 1,  ///< valid, filled by gap interpolation

@@ -13,6 +13,10 @@ Schedule& Schedule::repeat(std::uint64_t times, const std::vector<Phase>& phases
     phases_.resize(first);
     return *this;
   }
+  if (times == 1 && !segments_.empty() && segments_.back().repeat == 1) {
+    segments_.back().phase_count += count;
+    return *this;
+  }
   segments_.push_back({times, first, count});
   return *this;
 }

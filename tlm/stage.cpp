@@ -49,8 +49,7 @@ void Stage::advance() {
 
 // Starts the next firing if its date is known.
 bool Stage::fire() {
-  const bool frame_begins =
-      next_.segment == 0 && next_.pass == 0 && next_.phase == 0 && next_.count == 0;
+  const bool frame_begins = next_.segment == 0 && next_.pass == 0 && next_.phase == 0 && next_.count == 0;
   if (frame_begins && frame_limit_ != 0 && frames_.size() == frame_limit_) return false;
   const Schedule::Segment& segment = schedule_.segments()[next_.segment];
   const Phase& phase = schedule_.phases()[segment.first_phase + next_.phase];

@@ -81,7 +81,6 @@ class Stage : public sc_core::sc_module, public Actor {
     std::uint32_t count = 0;
   };
 
-
   bool fire();
   void drain();
   bool write(const Pending& firing, Cycles earliest);

@@ -17,11 +17,12 @@ namespace parallax {
 template <class T>
 class Stream final : public StreamBase {
  public:
-  using Row = std::function<void(const T* row)>;
+  using Row = std::function<void(const T* row, std::size_t length)>;
 
   using StreamBase::StreamBase;
 
-  /// The reader takes rows of `length` tokens. Rows that a writer delivers token by token are collected.
+  /// The reader takes rows of `length` values, which are collected where the writer delivers them piece by
+  /// piece; with length 0 it takes them as they are sent.
   void on_row(std::size_t length, Row take) {
     row_length_ = length;
     take_ = std::move(take);
@@ -29,8 +30,8 @@ class Stream final : public StreamBase {
 
   /// The writer hands over the values of the next `length` tokens.
   void send_row(const T* row, std::size_t length) {
-    if (take_ && length == row_length_ && values_.empty()) {
-      take_(row);
+    if (take_ && (row_length_ == 0 || (length == row_length_ && values_.empty()))) {
+      take_(row, length);
       return;
     }
     values_.insert(values_.end(), row, row + length);
@@ -57,11 +58,11 @@ class Stream final : public StreamBase {
 
  private:
   void deliver_collected() {
-    while (take_ && values_.size() >= row_length_) {
+    while (take_ && row_length_ != 0 && values_.size() >= row_length_) {
       const auto end = values_.begin() + static_cast<std::ptrdiff_t>(row_length_);
       const std::vector<T> row(values_.begin(), end);
       values_.erase(values_.begin(), end);
-      take_(row.data());
+      take_(row.data(), row.size());
     }
   }
 
@@ -86,12 +87,21 @@ class StreamIn final : public sc_core::sc_port<Stream<T>, 1>, public StreamPort 
 
   bool is_input() const override { return true; }
   std::vector<StreamBase*> streams() override { return {(*this)[0]}; }
+  /// Stream::on_row of whatever stream gets bound; to be called before the simulation starts.
+  void on_row(std::size_t length, typename Stream<T>::Row take) {
+    row_length_ = length;
+    take_ = std::move(take);
+  }
 
  private:
   void end_of_elaboration() override {
     sc_core::sc_object* module = this->get_parent_object();
     (*this)[0]->attach_reader(module->name(), dynamic_cast<Actor*>(module));
+    if (take_) (*this)[0]->on_row(row_length_, take_);
   }
+
+  std::size_t row_length_ = 0;
+  typename Stream<T>::Row take_;
 };
 
 /// Output port of a stage: writes one stream, or the same tokens to several in the same cycle (a fork).

@@ -19,7 +19,7 @@ std::uint64_t ring_mask(std::uint32_t depth) {
   return size - 1;
 }
 
-const StreamConfig& checked(const char* name, const StreamConfig& config) {
+const FifoConfig& checked(const char* name, const FifoConfig& config) {
   if (config.depth < 1 || config.depth > kLargestDepth) {
     throw UserError(
         fmt::format("stream '{}': depth {} is outside 1 to {} tokens", name, config.depth, kLargestDepth));
@@ -33,7 +33,7 @@ const StreamConfig& checked(const char* name, const StreamConfig& config) {
 }  // namespace
 
 StreamBase::StreamBase(const char* name, Dataflow& dataflow, const ClockDomain& writer_clock,
-                       const ClockDomain& reader_clock, const StreamConfig& config)
+                       const ClockDomain& reader_clock, const FifoConfig& config)
     : sc_prim_channel(name),
       config_(checked(name, config)),
       dataflow_(dataflow),
@@ -129,11 +129,11 @@ void StreamBase::wait_writable(std::uint64_t ahead) {
   writer_clock_.wait_until(std::max(writable_at(ahead), ahead == 0 ? last_write_ + Cycles(1) : Cycles(0)));
 }
 
-void StreamBase::commit() {
-  const Cycles cycle = writer_clock_.now();
-  const Cycles blocked =
-      std::max(Cycles(0), writable_at() - std::max(write_wait_began_, last_write_ + Cycles(1)));
-  mark_written(cycle, blocked);
+void StreamBase::commit(const sc_core::sc_time& time) {
+  const Cycles next = last_write_ + Cycles(1);
+  const Cycles room = writable_at();
+  const Cycles cycle = std::max({writer_clock_.cycle_at_or_after(time), next, room});
+  mark_written(cycle, std::max(Cycles(0), room - std::max(write_wait_began_, next)));
 }
 
 }  // namespace parallax

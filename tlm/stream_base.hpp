@@ -13,7 +13,7 @@
 namespace parallax {
 
 /// A bounded FIFO between two stages.
-struct StreamConfig {
+struct FifoConfig {
   std::uint32_t depth = 2;  ///< tokens, 1 to 2^24
   Bits width{8};            ///< of one token
   /// Edges of the reader's clock after the writing edge until the token can be read; 1 = registered FIFO. A
@@ -52,7 +52,7 @@ class StreamListener {
 class StreamBase : public sc_core::sc_prim_channel, public virtual sc_core::sc_interface {
  public:
   StreamBase(const char* name, Dataflow& dataflow, const ClockDomain& writer_clock,
-             const ClockDomain& reader_clock, const StreamConfig& config);
+             const ClockDomain& reader_clock, const FifoConfig& config);
   StreamBase(const StreamBase&) = delete;
   StreamBase& operator=(const StreamBase&) = delete;
 
@@ -113,8 +113,9 @@ class StreamBase : public sc_core::sc_prim_channel, public virtual sc_core::sc_i
   /// Returns in the first cycle, not before the present one, with room for the token `ahead` places after the
   /// next.
   void wait_writable(std::uint64_t ahead = 0);
-  /// Marks the next token as written in the present cycle; call after wait_writable().
-  void commit();
+  /// Marks the next token as written in the first cycle not before `time` (the present or later), one cycle
+  /// after the token before at the earliest; call after wait_writable().
+  void commit(const sc_core::sc_time& time = sc_core::sc_time_stamp());
 
  private:
   Cycles forward(Cycles written) const {
@@ -127,7 +128,7 @@ class StreamBase : public sc_core::sc_prim_channel, public virtual sc_core::sc_i
   }
   void settle_occupancy();
 
-  const StreamConfig config_;
+  const FifoConfig config_;
   Dataflow& dataflow_;
   const ClockDomain& writer_clock_;
   const ClockDomain& reader_clock_;

@@ -71,8 +71,8 @@ inline std::ostream& operator<<(std::ostream& out, const Graph& graph) {
     for (const GraphPart& part : n.parts) {
       out << ", " << part.repeat << " times";
       for (const Phase& p : part.phases) {
-        out << " {" << p.count << " every " << p.interval << " in " << int{p.consume} << " out " << int{p.produce}
-            << "}";
+        out << " {" << p.count << " every " << p.interval << " in " << int{p.consume} << " out "
+            << int{p.produce} << "}";
       }
     }
   }

@@ -17,7 +17,8 @@ class GraphStage final : public Stage {
   GraphStage(const sc_core::sc_module_name& name, const ClockDomain& clock, Dataflow& dataflow,
              const GraphNode& node, std::uint64_t frames, int inputs, int outputs)
       : Stage(name, clock, dataflow, node.latency) {
-    for (int i = 0; i < inputs; ++i) in.push_back(std::make_unique<StreamIn<int>>(fmt::format("in_{}", i).c_str()));
+    for (int i = 0; i < inputs; ++i)
+      in.push_back(std::make_unique<StreamIn<int>>(fmt::format("in_{}", i).c_str()));
     for (int i = 0; i < outputs; ++i) {
       out.push_back(std::make_unique<StreamOut<int>>(fmt::format("out_{}", i).c_str()));
     }
@@ -66,10 +67,11 @@ class GraphThread final : public sc_core::sc_module {
 class ModelSimulation {
  public:
   /// `threads`: sources and sinks are kernel threads where bit (node % 64) is set, else actors.
-  ModelSimulation(const Graph& graph, std::uint64_t threads) : dataflow_("dataflow"), dates_(graph.edges.size()) {
+  ModelSimulation(const Graph& graph, std::uint64_t threads)
+      : dataflow_("dataflow"), dates_(graph.edges.size()) {
     for (std::size_t i = 0; i < graph.periods.size(); ++i) {
-      clocks_.push_back(
-          std::make_unique<ClockDomain>(fmt::format("clock_{}", i), Hertz(kUnitsPerSecond / graph.periods[i])));
+      clocks_.push_back(std::make_unique<ClockDomain>(fmt::format("clock_{}", i),
+                                                      Hertz(kUnitsPerSecond / graph.periods[i])));
     }
     std::vector<int> inputs(graph.nodes.size(), 0);
     std::vector<int> outputs(graph.nodes.size(), 0);
@@ -78,9 +80,10 @@ class ModelSimulation {
       const auto to = static_cast<std::size_t>(edge.to);
       outputs[from] = std::max(outputs[from], edge.from_port + 1);
       inputs[to] = std::max(inputs[to], edge.to_port + 1);
-      const StreamConfig config{edge.depth, Bits(8), edge.write_to_read, edge.read_to_write};
+      const FifoConfig config{edge.depth, Bits(8), edge.write_to_read, edge.read_to_write};
       streams_.push_back(std::make_unique<Stream<int>>(fmt::format("s{}", streams_.size()).c_str(), dataflow_,
-                                                       clock(graph.nodes[from]), clock(graph.nodes[to]), config));
+                                                       clock(graph.nodes[from]), clock(graph.nodes[to]),
+                                                       config));
       log_.push_back(std::make_unique<Log>(dates_[streams_.size() - 1]));
       streams_.back()->listen(log_.back().get());
     }
@@ -93,23 +96,26 @@ class ModelSimulation {
         threads_[i] = std::make_unique<GraphThread>(name.c_str(), clock(node), node);
       } else {
         stage_nodes_.push_back(node.kind == GraphNode::Kind::kStage ? node : as_stage(node));
-        stages_[i] = std::make_unique<GraphStage>(name.c_str(), clock(node), dataflow_, stage_nodes_.back(),
-                                                  node.kind == GraphNode::Kind::kStage ? 0 : 1, inputs[i], outputs[i]);
+        stages_[i] =
+            std::make_unique<GraphStage>(name.c_str(), clock(node), dataflow_, stage_nodes_.back(),
+                                         node.kind == GraphNode::Kind::kStage ? 0 : 1, inputs[i], outputs[i]);
       }
     }
     for (std::size_t e = 0; e < graph.edges.size(); ++e) {
       const GraphEdge& edge = graph.edges[e];
       const auto from = static_cast<std::size_t>(edge.from);
       const auto to = static_cast<std::size_t>(edge.to);
-      (stages_[from] ? *stages_[from]->out[static_cast<std::size_t>(edge.from_port)] : *threads_[from]->out)(
-          *streams_[e]);
-      (stages_[to] ? *stages_[to]->in[static_cast<std::size_t>(edge.to_port)] : *threads_[to]->in)(*streams_[e]);
+      (stages_[from] ? *stages_[from]->out[static_cast<std::size_t>(edge.from_port)]
+                     : *threads_[from]->out)(*streams_[e]);
+      (stages_[to] ? *stages_[to]->in[static_cast<std::size_t>(edge.to_port)]
+                   : *threads_[to]->in)(*streams_[e]);
     }
   }
 
   std::vector<EdgeDates> run() {
     sc_core::sc_start();
-    for (std::size_t i = 0; i < streams_.size(); ++i) dates_[i].high_water = streams_[i]->statistics().high_water;
+    for (std::size_t i = 0; i < streams_.size(); ++i)
+      dates_[i].high_water = streams_[i]->statistics().high_water;
     return dates_;
   }
   const Dataflow& dataflow() const { return dataflow_; }
@@ -134,12 +140,15 @@ class ModelSimulation {
     for (const std::uint32_t stall : node.stalls) {
       GraphPart part;
       if (stall > 0) part.phases.push_back({1, stall, 0, 0});
-      part.phases.push_back({1, 1, static_cast<PortMask>(source ? 0 : 1), static_cast<PortMask>(source ? 1 : 0)});
+      part.phases.push_back(
+          {1, 1, static_cast<PortMask>(source ? 0 : 1), static_cast<PortMask>(source ? 1 : 0)});
       stage.parts.push_back(part);
     }
     return stage;
   }
-  const ClockDomain& clock(const GraphNode& node) const { return *clocks_[static_cast<std::size_t>(node.clock)]; }
+  const ClockDomain& clock(const GraphNode& node) const {
+    return *clocks_[static_cast<std::size_t>(node.clock)];
+  }
 
   Dataflow dataflow_;
   std::vector<std::unique_ptr<ClockDomain>> clocks_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Random graphs: chains, forks and joins that meet again, look-ahead in rows, changes of rate, depths 1 to 4096,
-// several clocks, random stalls at both ends. Some of them deadlock; that is part of what is compared.
+// Random graphs: chains, forks and joins that meet again, look-ahead in rows, changes of rate, depths 1 to
+// 4096, several clocks, random stalls at both ends. Some of them deadlock; that is part of what is compared.
 #pragma once
 
 #include <rapidcheck.h>
@@ -90,11 +90,21 @@ class RandomGraph {
     edge.to = static_cast<int>(graph_.nodes.size()) - 1;
     edge.to_port = to_port;
     switch (number(0, 4)) {
-      case 0: edge.depth = 1; break;
-      case 1: edge.depth = static_cast<std::uint32_t>(number(2, 4)); break;
-      case 2: edge.depth = static_cast<std::uint32_t>(number(1, 40)); break;
-      case 3: edge.depth = static_cast<std::uint32_t>(number(1, 400)); break;
-      default: edge.depth = static_cast<std::uint32_t>(number(1, 4096)); break;
+      case 0:
+        edge.depth = 1;
+        break;
+      case 1:
+        edge.depth = static_cast<std::uint32_t>(number(2, 4));
+        break;
+      case 2:
+        edge.depth = static_cast<std::uint32_t>(number(1, 40));
+        break;
+      case 3:
+        edge.depth = static_cast<std::uint32_t>(number(1, 400));
+        break;
+      default:
+        edge.depth = static_cast<std::uint32_t>(number(1, 4096));
+        break;
     }
     if (number(0, 5) == 0) {
       edge.write_to_read = static_cast<std::uint32_t>(number(1, 4));
@@ -136,7 +146,8 @@ class RandomGraph {
           if (reads && beat < in_rates[i]) phase.consume = static_cast<PortMask>(phase.consume | (1u << i));
         }
         for (std::size_t i = 0; i < out_rates.size(); ++i) {
-          if (writes && beat >= beats - out_rates[i]) phase.produce = static_cast<PortMask>(phase.produce | (1u << i));
+          if (writes && beat >= beats - out_rates[i])
+            phase.produce = static_cast<PortMask>(phase.produce | (1u << i));
         }
         if (phase.consume != 0 || phase.produce != 0) phases.push_back(phase);
       }

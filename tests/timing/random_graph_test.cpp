@@ -38,9 +38,10 @@ std::string differences(const Graph& graph, std::uint64_t threads) {
     compare(e, "written", expected[e].written, actual[e].written);
     compare(e, "read", expected[e].read, actual[e].read);
     // Tokens that nobody came for are not settled; where all were read the high-water mark is final.
-    if (expected[e].written.size() == expected[e].read.size() && expected[e].high_water != actual[e].high_water) {
-      out << "edge " << e << " high water: expected " << expected[e].high_water << ", have " << actual[e].high_water
-          << "\n";
+    if (expected[e].written.size() == expected[e].read.size() &&
+        expected[e].high_water != actual[e].high_water) {
+      out << "edge " << e << " high water: expected " << expected[e].high_water << ", have "
+          << actual[e].high_water << "\n";
     }
   }
   return out.str();
@@ -65,7 +66,8 @@ std::string differences_in_child(const Graph& graph, std::uint64_t threads) {
   close(channel[1]);
   std::string text;
   char buffer[4096];
-  for (ssize_t n; (n = read(channel[0], buffer, sizeof buffer)) > 0;) text.append(buffer, static_cast<std::size_t>(n));
+  for (ssize_t n; (n = read(channel[0], buffer, sizeof buffer)) > 0;)
+    text.append(buffer, static_cast<std::size_t>(n));
   close(channel[0]);
   int status = 0;
   waitpid(child, &status, 0);
@@ -84,11 +86,12 @@ TEST(RandomGraph, EveryDateEqualsTheReference) {
         const Graph graph = RandomGraph::make();
         const auto threads = *rc::gen::arbitrary<std::uint64_t>();
         const std::string text = differences_in_child(graph, threads);
-        if (!text.empty()) RC_FAIL(text + "threads " + std::to_string(threads) + [&] {
-          std::ostringstream s;
-          s << graph;
-          return s.str();
-        }());
+        if (!text.empty())
+          RC_FAIL(text + "threads " + std::to_string(threads) + [&] {
+            std::ostringstream s;
+            s << graph;
+            return s.str();
+          }());
       },
       rc::detail::TestMetadata{}, params);
   std::ostringstream report;

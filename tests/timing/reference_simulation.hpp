@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The reference for every date: a plain simulation that goes through time edge by edge and moves one token at a time
-// through explicit registers, as the circuit does. It shares no code with the model.
+// The reference for every date: a plain simulation that goes through time edge by edge and moves one token at
+// a time through explicit registers, as the circuit does. It shares no code with the model.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,8 @@ namespace parallax::test {
 class ReferenceSimulation {
  public:
   explicit ReferenceSimulation(const Graph& graph) : graph_(graph), fifos_(graph.edges.size()) {
-    for (std::size_t i = 0; i < graph.nodes.size(); ++i) states_.emplace_back(unrolled(graph.nodes[i]), graph.nodes[i]);
+    for (std::size_t i = 0; i < graph.nodes.size(); ++i)
+      states_.emplace_back(unrolled(graph.nodes[i]), graph.nodes[i]);
   }
 
   /// Runs until nothing has moved for longer than anything can take: all is done, or deadlocked.
@@ -103,13 +104,15 @@ class ReferenceSimulation {
   }
   bool inputs_ready(int node, unsigned mask, std::int64_t time) const {
     for (std::size_t e = 0; e < graph_.edges.size(); ++e) {
-      if (graph_.edges[e].to == node && ((mask >> graph_.edges[e].to_port) & 1u) && !has_token(e, time)) return false;
+      if (graph_.edges[e].to == node && ((mask >> graph_.edges[e].to_port) & 1u) && !has_token(e, time))
+        return false;
     }
     return true;
   }
   bool outputs_ready(int node, unsigned mask, std::int64_t time) {
     for (std::size_t e = 0; e < graph_.edges.size(); ++e) {
-      if (graph_.edges[e].from == node && ((mask >> graph_.edges[e].from_port) & 1u) && !has_room(e, time)) return false;
+      if (graph_.edges[e].from == node && ((mask >> graph_.edges[e].from_port) & 1u) && !has_room(e, time))
+        return false;
     }
     return true;
   }
@@ -133,7 +136,8 @@ class ReferenceSimulation {
     }
   }
 
-  // One clock edge of one node. Readiness depends on strictly earlier times only, so the order of nodes is free.
+  // One clock edge of one node. Readiness depends on strictly earlier times only, so the order of nodes is
+  // free.
   bool edge(std::size_t i, std::int64_t time, std::int64_t cycle) {
     const GraphNode& node = graph_.nodes[i];
     const int id = static_cast<int>(i);

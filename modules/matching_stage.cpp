@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "modules/matching_stage.hpp"
+
+namespace parallax {
+
+MatchingStage::MatchingStage(const sc_core::sc_module_name& name, const MatchingConfig& config, int code_bits,
+                             const StageTiming& timing, const StageContext& context)
+    : Stage(name, context.clock, context.dataflow, timing.latency),
+      kernel_(config, context.width, context.height, code_bits),
+      codes_(static_cast<std::size_t>(context.width), static_cast<std::size_t>(context.width),
+             [this, length = static_cast<std::size_t>(context.width) *
+                             static_cast<std::size_t>(config.range().count)](const CensusCode* left,
+                                                                             const CensusCode* right) {
+               kernel_.push(left, right,
+                            [this, length](const Cost* costs) { out_costs.send_row(costs, length); });
+             }),
+      look_ahead_(look_ahead_pixels(context, kernel_.look_ahead_rows(), kernel_.look_ahead_pixels())) {
+  const auto width = static_cast<std::size_t>(context.width);
+  RasterSchedule raster;
+  raster.beats = static_cast<std::uint32_t>(config.iterations);
+  raster.reads.first = 0b11;
+  raster.writes.every = 0b1;
+  raster.look_ahead = look_ahead_;
+  raster.timing = timing;
+  set_schedule(make_schedule(context, raster));
+  in_left.on_row(width, [this](const CensusCode* row, std::size_t) { codes_.push_a(row); });
+  in_right.on_row(width, [this](const CensusCode* row, std::size_t) { codes_.push_b(row); });
+}
+
+}  // namespace parallax

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "tlm/clock_domain.hpp"
+#include "tlm/dataflow.hpp"
+#include "tlm/schedule.hpp"
+#include "tlm/stage_timing.hpp"
+
+namespace parallax {
+
+/// Where a stage lives: its clock, the engine, and the size of the images that pass through it, in pixels.
+struct StageContext {
+  const ClockDomain& clock;
+  Dataflow& dataflow;
+  int width;
+  int height;
+
+  std::uint64_t pixels() const {
+    return static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
+  }
+};
+
+/// What a raster stage does to its ports for one pixel. Each pixel takes `beats` firings; ports are read or
+/// written in each of them, in the first or in the last one.
+struct PixelPorts {
+  PortMask every = 0;
+  PortMask first = 0;
+  PortMask last = 0;
+};
+
+/// A stage that goes through the image in raster order: it reads pixel i while it writes pixel i -
+/// look_ahead.
+struct RasterSchedule {
+  PixelPorts reads;
+  PixelPorts reads_late;  ///< inputs that go with the pixel written, not with the pixel read
+  PixelPorts writes;
+  std::uint32_t beats = 1;
+  std::uint64_t look_ahead = 0;  ///< pixels, at most the frame's
+  StageTiming timing;
+};
+
+/// Pixels between the newest input and the output, for a window that looks ahead so far; never more than the
+/// frame.
+std::uint64_t look_ahead_pixels(const StageContext& context, int rows, int pixels);
+
+/// The schedule of one frame. After the last pixel is in, the pixels still held back come out one in
+/// `interval` cycles (one in beats * interval where every beat writes). Row overhead follows the last pixel
+/// of a row read, frame overhead the last pixel written.
+Schedule make_schedule(const StageContext& context, const RasterSchedule& raster);
+
+}  // namespace parallax

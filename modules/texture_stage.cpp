@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "modules/texture_stage.hpp"
+
+namespace parallax {
+
+TextureStage::TextureStage(const sc_core::sc_module_name& name, const TextureConfig& config,
+                           const StageTiming& timing, const StageContext& context)
+    : Stage(name, context.clock, context.dataflow, timing.latency),
+      kernel_(config, context.width, context.height),
+      look_ahead_(look_ahead_pixels(context, kernel_.look_ahead_rows(), kernel_.look_ahead_pixels())) {
+  const auto width = static_cast<std::size_t>(context.width);
+  RasterSchedule raster;
+  raster.reads.every = 0b01;
+  raster.reads_late.every = 0b10;
+  raster.writes.every = 0b1;
+  raster.look_ahead = look_ahead_;
+  raster.timing = timing;
+  set_schedule(make_schedule(context, raster));
+  const RowSink<Disparity> emit = [this, width](const Disparity* out) { out_disparity.send_row(out, width); };
+  in_left.on_row(width, [this, emit](const Gray* row, std::size_t) { kernel_.push_image(row, emit); });
+  in_disparity.on_row(width,
+                      [this, emit](const Disparity* row, std::size_t) { kernel_.push_disparity(row, emit); });
+}
+
+}  // namespace parallax

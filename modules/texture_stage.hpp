@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <systemc>
+
+#include "modules/raster_schedule.hpp"
+#include "modules/texture.hpp"
+#include "tlm/stage.hpp"
+
+namespace parallax {
+
+/// Texture filter: rectified left pixels in, half a window ahead of the disparities that they judge
+/// (texture.hpp; paper, "Texture Filtering").
+class TextureStage final : public Stage {
+ public:
+  StreamIn<Gray> in_left{"in_left"};
+  StreamIn<Disparity> in_disparity{"in_disparity"};
+  StreamOut<Disparity> out_disparity{"out_disparity"};
+
+  TextureStage(const sc_core::sc_module_name& name, const TextureConfig& config, const StageTiming& timing,
+               const StageContext& context);
+
+  /// Into the image; disparities are not looked ahead to.
+  std::uint64_t look_ahead() const { return look_ahead_; }
+  Bits storage() const { return Bits(kernel_.storage_bits()); }
+
+ private:
+  Texture kernel_;
+  std::uint64_t look_ahead_;
+};
+
+}  // namespace parallax

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <tlm_utils/simple_initiator_socket.h>
+#include <cstdint>
+#include <functional>
+#include <systemc>
+#include <tlm>
+
+#include "tlm/payload_pool.hpp"
+
+namespace parallax {
+
+/// The request and response side of a DMA engine: a TLM-2.0 initiator that keeps to the base protocol, with
+/// several requests on the way.
+class BusMaster final : public sc_core::sc_module {
+ public:
+  tlm_utils::simple_initiator_socket<BusMaster> socket{"socket"};
+
+  /// `outstanding` >= 1: requests sent and not answered. `response` is told of each answer with its time.
+  BusMaster(const sc_core::sc_module_name& name, std::size_t burst_bytes, std::uint32_t outstanding,
+            std::function<void(::tlm::tlm_generic_payload&, const sc_core::sc_time&)> response);
+
+  PayloadPool& pool() { return pool_; }
+  /// For a thread: sends the payload, waiting until an answer makes room and the target takes the request. An
+  /// answer that is an error is reported with SC_REPORT_ERROR /parallax/dma/response.
+  void send(::tlm::tlm_generic_payload& payload);
+  /// Functional access, in no time.
+  void read_now(std::uint64_t address, std::uint8_t* data, std::size_t size);
+
+  std::uint32_t in_flight() const { return in_flight_; }
+
+ private:
+  ::tlm::tlm_sync_enum nb_transport_bw(::tlm::tlm_generic_payload& payload, ::tlm::tlm_phase& phase,
+                                       sc_core::sc_time& delay);
+  void answered(::tlm::tlm_generic_payload& payload, const sc_core::sc_time& delay);
+
+  PayloadPool pool_;
+  std::uint32_t outstanding_;
+  std::function<void(::tlm::tlm_generic_payload&, const sc_core::sc_time&)> response_;
+  std::uint32_t in_flight_ = 0;
+  ::tlm::tlm_generic_payload* requesting_ = nullptr;  // sent, END_REQ not seen
+  sc_core::sc_event moved_;
+};
+
+}  // namespace parallax
