@@ -20,8 +20,8 @@ struct GapInterpolationConfig {
   /// Off: disparities pass unchanged, no look-ahead. Default on (S, device software).
   bool enabled = true;
   /// l_max, longest gap that is filled, in px, 0..64 (S: it exists, not exposed by the device; the numbers
-  /// are ours).
-  int l_max = 5;
+  /// are ours, the default chosen on real pairs).
+  int l_max = 12;
   /// The two edges of a gap are similar when they differ by at most this, in 1/16 px. 0..4094. Own choice.
   int max_difference = 16;
   /// Own choice: not published.

@@ -25,7 +25,7 @@ struct NoiseReductionConfig {
   int window = 3;
   /// Neighbours that differ from the centre by more than this, in 1/16 px, belong to another surface.
   /// 0..4094. Own choice.
-  int max_difference = 16;
+  int max_difference = 24;
 
   void validate() const;
 };
