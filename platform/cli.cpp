@@ -40,11 +40,12 @@ std::vector<std::string> alternatives(const CLI::App& app, const std::string& wo
 }
 
 /// The words that no option and no command took.
-std::string unexpected(const CLI::App& app, const std::string& word) {
+std::string unexpected(const CLI::App& app, const std::string& argument) {
+  const std::string word = argument.substr(0, argument.find('='));
   const bool is_option = word.rfind('-', 0) == 0;
-  if (!is_option && !app.get_subcommands().empty()) return fmt::format("unexpected argument '{}'", word);
+  if (!is_option && !app.get_subcommands().empty()) return fmt::format("unexpected argument '{}'", argument);
   return fmt::format("unknown {} {}; the nearest is {}", is_option ? "option" : "command", word,
-                     nearest_name(word.substr(0, word.find('=')), alternatives(app, word)));
+                     nearest_name(word, alternatives(app, word)));
 }
 
 std::string one_line(std::string text) {
@@ -97,7 +98,9 @@ int run_command_line(int argc, const char* const* argv, std::ostream& out, std::
     if (quiet) context.verbosity = Verbosity::kQuiet;
     if (verbose) context.verbosity = Verbosity::kVerbose;
     if (!context.action) throw UserError("no command given; parallax --help lists them");
-    return context.action();
+    const int code = context.action();
+    if (!out.flush()) throw UserError("cannot write to standard output");
+    return code;
   } catch (const UserError& error) {
     return fail(err, error.what());
   }

@@ -79,10 +79,10 @@ nlohmann::ordered_json to_json(const Configuration& configuration, bool document
   nlohmann::ordered_json tree;
   tree["preset"] = configuration.preset;
   for (const EffectiveKey& key : configuration.keys) {
-    nlohmann::ordered_json* section = &tree;
-    std::istringstream path(key.section);
-    for (std::string part; std::getline(path, part, '.');) section = &(*section)[part];
-    (*section)[key.name] = documented ? documented_json(key) : to_json(key.value);
+    nlohmann::ordered_json* place = &tree[key.section];
+    std::istringstream name(key.name);
+    for (std::string part; std::getline(name, part, '.');) place = &(*place)[part];
+    *place = documented ? documented_json(key) : to_json(key.value);
   }
   return tree;
 }

@@ -35,15 +35,12 @@ std::string origins_of(const std::string& line, const RawConfig& raw) {
 RawConfig disparity_range_assignment(std::int64_t range, const Schema& schema) {
   const std::string origin = fmt::format("--disparities {}", range);
   const auto parallelism = std::get<std::int64_t>(schema.find("matching.parallelism")->get());
-  const Key& iterations = *schema.find("matching.iterations");
-  if (range % parallelism != 0 || range / parallelism < iterations.integers.least ||
-      range / parallelism > iterations.integers.most) {
-    throw UserError(fmt::format("{}: must be a multiple of matching.parallelism = {} from {} to {}", origin,
-                                parallelism, iterations.integers.least * parallelism,
-                                iterations.integers.most * parallelism));
+  if (range <= 0 || range % parallelism != 0) {
+    throw UserError(
+        fmt::format("{}: must be a positive multiple of matching.parallelism = {}", origin, parallelism));
   }
-  return {
-      {iterations.path, RawValue{ConfigValue(range / parallelism), std::nullopt, "command line", origin}}};
+  return {{"matching.iterations",
+           RawValue{ConfigValue(range / parallelism), std::nullopt, "command line", origin}}};
 }
 
 }  // namespace

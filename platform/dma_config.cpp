@@ -11,17 +11,17 @@ namespace {
 
 void validate_port(const std::string& name, const DmaPortConfig& port) {
   if (port.data_bits % 8 != 0) {
-    throw UserError(fmt::format("dma.{}.data_bits = {}, but must be a multiple of 8", name, port.data_bits));
+    throw UserError(fmt::format("dma.{}.data_bits = {}: must be a multiple of 8", name, port.data_bits));
   }
   if (port.burst_bytes % (port.data_bits / 8) != 0) {
     throw UserError(
-        fmt::format("dma.{0}.burst_bytes = {1}, but must be a multiple of the {2} bytes of dma.{0}.data_bits",
+        fmt::format("dma.{0}.burst_bytes = {1}: must be a multiple of the {2} bytes of dma.{0}.data_bits",
                     name, port.burst_bytes, port.data_bits / 8));
   }
   if (port.fifo_bytes < port.burst_bytes) {
     throw UserError(
-        fmt::format("dma.{0}.fifo_bytes = {1}, but must hold a burst: at least dma.{0}.burst_bytes = {2}",
-                    name, port.fifo_bytes, port.burst_bytes));
+        fmt::format("dma.{0}.fifo_bytes = {1}: must hold a burst: at least dma.{0}.burst_bytes = {2}", name,
+                    port.fifo_bytes, port.burst_bytes));
   }
 }
 

@@ -10,12 +10,11 @@ namespace parallax {
 
 void ImageConfig::validate() const {
   if (width > max_width) {
-    throw UserError(
-        fmt::format("image.width = {}, but must be at most image.max_width = {}", width, max_width));
+    throw UserError(fmt::format("image.width = {}: must be at most image.max_width = {}", width, max_width));
   }
   if (height > max_height) {
     throw UserError(
-        fmt::format("image.height = {}, but must be at most image.max_height = {}", height, max_height));
+        fmt::format("image.height = {}: must be at most image.max_height = {}", height, max_height));
   }
 }
 

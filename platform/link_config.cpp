@@ -10,9 +10,8 @@ namespace parallax {
 
 void LinkConfig::validate() const {
   if (packet_payload_bytes > packet_wire_bytes) {
-    throw UserError(
-        fmt::format("link.packet_payload_bytes = {}, but must be at most link.packet_wire_bytes = {}",
-                    packet_payload_bytes, packet_wire_bytes));
+    throw UserError(fmt::format("link.packet_payload_bytes = {}: must be at most link.packet_wire_bytes = {}",
+                                packet_payload_bytes, packet_wire_bytes));
   }
 }
 

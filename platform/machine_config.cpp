@@ -2,6 +2,7 @@
 #include "platform/machine_config.hpp"
 
 #include "platform/schema.hpp"
+#include "platform/stage_schema.hpp"
 
 namespace parallax {
 
@@ -9,6 +10,16 @@ void MachineConfig::validate() const {
   image.validate();
   dma.validate();
   link.validate();
+  rectification.validate();
+  census.validate();
+  matching.validate();
+  subpixel.validate();
+  uniqueness.validate();
+  consistency.validate();
+  texture.validate();
+  speckle.validate();
+  gap_interpolation.validate();
+  noise_reduction.validate();
 }
 
 void describe(Schema& schema, MachineConfig& config) {
@@ -19,6 +30,17 @@ void describe(Schema& schema, MachineConfig& config) {
   describe(schema, config.dma);
   describe(schema, config.link);
   describe(schema, config.streams);
+
+  describe(schema, config.rectification);
+  describe(schema, config.census);
+  describe(schema, config.matching);
+  describe(schema, config.subpixel);
+  describe(schema, config.uniqueness);
+  describe(schema, config.consistency);
+  describe(schema, config.texture);
+  describe(schema, config.speckle);
+  describe(schema, config.gap_interpolation);
+  describe(schema, config.noise_reduction);
   describe(schema, config.timing);
 }
 

@@ -1,6 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "modules/census.hpp"
+#include "modules/consistency.hpp"
+#include "modules/gap_interpolation.hpp"
+#include "modules/matching.hpp"
+#include "modules/noise_reduction.hpp"
+#include "modules/rectification.hpp"
+#include "modules/speckle.hpp"
+#include "modules/subpixel.hpp"
+#include "modules/texture.hpp"
+#include "modules/uniqueness.hpp"
 #include "platform/camera_config.hpp"
 #include "platform/clock_config.hpp"
 #include "platform/dma_config.hpp"
@@ -21,6 +31,17 @@ struct MachineConfig {
   DmaConfig dma;
   LinkConfig link;
   StreamConfig streams;
+
+  RectificationConfig rectification;
+  CensusConfig census;
+  MatchingConfig matching;
+  SubpixelConfig subpixel;
+  UniquenessConfig uniqueness;
+  ConsistencyConfig consistency;
+  TextureConfig texture;
+  SpeckleConfig speckle;
+  GapInterpolationConfig gap_interpolation;
+  NoiseReductionConfig noise_reduction;
   PipelineTiming timing;
 
   /// Throws UserError, one line that names the keys, when values are fine alone but not together.

@@ -12,7 +12,8 @@ namespace parallax {
 
 OutputFile::OutputFile(std::filesystem::path temporary, std::filesystem::path target)
     : temporary_(std::move(temporary)), target_(std::move(target)) {
-  if (std::filesystem::is_directory(target_)) fail(EISDIR);
+  std::error_code ignored;
+  if (std::filesystem::is_directory(target_, ignored)) fail(EISDIR);
   file_ = std::fopen(temporary_.c_str(), "wb");
   if (!file_) fail(errno);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "platform/output_folder.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -16,7 +17,7 @@ namespace fs = std::filesystem;
 OutputFolder::OutputFolder(fs::path path) : path_(std::move(path)) {
   if (path_.empty()) throw UserError("the name of the output folder is empty");
   make(path_);
-  if (::access(path_.c_str(), W_OK | X_OK) != 0) {
+  if (::faccessat(AT_FDCWD, path_.c_str(), W_OK | X_OK, AT_EACCESS) != 0) {
     throw UserError(
         fmt::format("cannot write to the output folder {}: {}", path_.string(), std::strerror(errno)));
   }
@@ -24,6 +25,10 @@ OutputFolder::OutputFolder(fs::path path) : path_(std::move(path)) {
 
 OutputFolder::~OutputFolder() {
   pending_.clear();
+  remove_made();
+}
+
+void OutputFolder::remove_made() {
   std::error_code not_empty;
   for (auto folder = made_.rbegin(); folder != made_.rend(); ++folder) fs::remove(*folder, not_empty);
 }
@@ -40,6 +45,7 @@ void OutputFolder::make(const fs::path& folder) {
     }
     fs::create_directory(part, failed);
     if (failed) {
+      remove_made();
       throw UserError(fmt::format("cannot make the output folder {}: {}", folder.string(), failed.message()));
     }
     made_.push_back(part);

@@ -39,6 +39,7 @@ class OutputFolder {
 
  private:
   void make(const std::filesystem::path& folder);
+  void remove_made();  ///< those that are empty
 
   std::filesystem::path path_;
   std::vector<std::filesystem::path> made_;  ///< folders that did not exist before, outermost first

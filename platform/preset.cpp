@@ -36,7 +36,7 @@ fs::path find_preset(const std::string& name, const fs::path& relative_to, const
                      const std::string& before) {
   std::error_code ignored;
   if (is_path(name)) {
-    const fs::path file = relative_to / name;
+    const fs::path file = relative_to.empty() ? fs::path(name) : (relative_to / name).lexically_normal();
     if (fs::exists(file, ignored)) return file;
     throw UserError(fmt::format("{}preset file {} does not exist", before, file.string()));
   }

@@ -31,6 +31,19 @@ std::optional<double> as_real(const ConfigValue& value) {
   return std::nullopt;
 }
 
+/// "w, nw" -> {"w", "nw"}
+std::vector<std::string> split_names(const std::string& text) {
+  std::vector<std::string> names(1);
+  for (const char c : text) {
+    if (c == ',') {
+      names.emplace_back();
+    } else if (c != ' ') {
+      names.back() += c;
+    }
+  }
+  return names;
+}
+
 /// The value in the type of the key, or nothing when it does not belong there.
 std::optional<ConfigValue> fit(const Key& key, const ConfigValue& value) {
   switch (key.type) {
@@ -52,14 +65,23 @@ std::optional<ConfigValue> fit(const Key& key, const ConfigValue& value) {
         if (std::find(key.names.begin(), key.names.end(), *name) != key.names.end()) return value;
       }
       break;
+    case KeyType::kNameSet:
+      if (const auto* text = std::get_if<std::string>(&value)) {
+        const std::vector<std::string> wanted = split_names(*text);
+        const auto known = [&](const std::string& name) {
+          return std::find(key.names.begin(), key.names.end(), name) != key.names.end();
+        };
+        if (std::all_of(wanted.begin(), wanted.end(), known)) return value;
+      }
+      break;
   }
   return std::nullopt;
 }
 
 }  // namespace
 
-std::string Key::section() const { return path.substr(0, path.rfind('.')); }
-std::string Key::name() const { return path.substr(path.rfind('.') + 1); }
+std::string Key::section() const { return path.substr(0, path.find('.')); }
+std::string Key::name() const { return path.substr(path.find('.') + 1); }
 
 std::string Key::expected() const {
   switch (type) {
@@ -71,6 +93,8 @@ std::string Key::expected() const {
       return fmt::format("a number from {} to {}", reals.least, reals.most);
     case KeyType::kChoice:
       return fmt::format("one of {}", fmt::join(names, ", "));
+    case KeyType::kNameSet:
+      return fmt::format("one or more of {}, separated by commas", fmt::join(names, ", "));
   }
   return {};
 }
@@ -88,6 +112,26 @@ void Schema::boolean(std::string path, bool& field, std::string documentation, P
   Key key{std::move(path), KeyType::kBoolean, "", std::move(documentation), std::move(provenance)};
   key.get = [&field] { return ConfigValue(field); };
   key.set = [&field](const ConfigValue& value) { field = std::get<bool>(value); };
+  add(std::move(key));
+}
+
+void Schema::name_set(std::string path, unsigned& field, std::vector<std::pair<std::string, unsigned>> bits,
+                      std::string documentation, Provenance provenance) {
+  Key key{std::move(path), KeyType::kNameSet, "", std::move(documentation), std::move(provenance)};
+  for (const auto& [name, bit] : bits) key.names.push_back(name);
+  key.get = [&field, bits] {
+    std::string text;
+    for (const auto& [name, bit] : bits) {
+      if (field & bit) text += (text.empty() ? "" : ", ") + name;
+    }
+    return ConfigValue(text);
+  };
+  key.set = [&field, bits](const ConfigValue& value) {
+    field = 0;
+    for (const std::string& wanted : split_names(std::get<std::string>(value))) {
+      for (const auto& [name, bit] : bits) field |= name == wanted ? bit : 0U;
+    }
+  };
   add(std::move(key));
 }
 
@@ -119,14 +163,14 @@ void Schema::apply(const std::string& path, const RawValue& raw) {
         fmt::format("{}: unknown key {}; the nearest is {}", raw.origin, path, nearest_name(path, paths)));
   }
   if (not_a_value) {
-    throw UserError(fmt::format("{}: {} is {}, but must be {}", raw.origin, path, not_a_value->description,
-                                key->expected()));
+    throw UserError(
+        fmt::format("{}: {} is {}: must be {}", raw.origin, path, not_a_value->description, key->expected()));
   }
   const ConfigValue& value = std::get<ConfigValue>(raw.value);
   const auto fitting = fit(*key, value);
   if (!fitting) {
     throw UserError(
-        fmt::format("{}: {} = {}, but must be {}", raw.origin, path, to_toml(value), key->expected()));
+        fmt::format("{}: {} = {}: must be {}", raw.origin, path, to_toml(value), key->expected()));
   }
   key->set(*fitting);
   key->provenance = {raw.tag.value_or(Tag::kChoice), raw.source.value_or(raw.origin)};
@@ -135,7 +179,7 @@ void Schema::apply(const std::string& path, const RawValue& raw) {
 void Schema::check() const {
   for (const Key& key : keys_) {
     if (!fit(key, key.get())) {
-      throw UserError(fmt::format("{} = {}, but must be {}", key.path, to_toml(key.get()), key.expected()));
+      throw UserError(fmt::format("{} = {}: must be {}", key.path, to_toml(key.get()), key.expected()));
     }
   }
 }

@@ -27,7 +27,13 @@ struct RealRange {
   double most;
 };
 
-enum class KeyType { kBoolean, kInteger, kReal, kChoice };
+enum class KeyType {
+  kBoolean,
+  kInteger,
+  kReal,
+  kChoice,   ///< one of its names
+  kNameSet,  ///< one or more of its names, "w, nw, n"
+};
 
 /// One key, bound to a field of a configuration struct.
 struct Key {
@@ -39,13 +45,13 @@ struct Key {
 
   IntegerRange integers{0, 0};       ///< for kInteger
   RealRange reals{0.0, 0.0};         ///< for kReal
-  std::vector<std::string> names{};  ///< for kChoice
+  std::vector<std::string> names{};  ///< for kChoice and kNameSet
 
   std::function<ConfigValue()> get{};
   std::function<void(const ConfigValue&)> set{};  ///< takes a value that was checked
 
-  std::string section() const;   ///< "matching", "dma.left"
-  std::string name() const;      ///< "p1"
+  std::string section() const;   ///< "matching", "dma"
+  std::string name() const;      ///< "p1", "left.burst_bytes"
   std::string expected() const;  ///< "an integer from 0 to 255"
 };
 
@@ -61,6 +67,10 @@ class Schema {
   template <class Enum>
   void choice(std::string path, Enum& field, std::vector<std::pair<std::string, Enum>> names,
               std::string documentation, Provenance provenance);
+
+  /// A set of names, each a bit of the field.
+  void name_set(std::string path, unsigned& field, std::vector<std::pair<std::string, unsigned>> bits,
+                std::string documentation, Provenance provenance);
 
   const std::vector<Key>& keys() const { return keys_; }
   const Key* find(const std::string& path) const;

@@ -2,6 +2,7 @@
 #include "platform/stream_config.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "platform/schema.hpp"
 
@@ -16,20 +17,22 @@ const std::vector<std::string>& pipeline_stream_names() {
 }
 
 StreamConfig::StreamConfig(const std::vector<std::string>& names) {
-  for (const std::string& name : names) depth[name] = 0;
+  for (const std::string& name : names) depths.push_back({name, 0});
 }
 
 std::uint32_t StreamConfig::resolve(const std::string& name, std::uint32_t needed) const {
-  const std::uint32_t configured = depth.at(name);
-  return configured != 0 ? configured : std::max(default_depth, needed);
+  const auto stream = std::find_if(depths.begin(), depths.end(),
+                                   [&](const StreamDepth& depth) { return depth.name == name; });
+  if (stream == depths.end()) throw std::logic_error("no stream is called " + name);
+  return stream->tokens != 0 ? stream->tokens : std::max(default_depth, needed);
 }
 
 void describe(Schema& schema, StreamConfig& config) {
   schema.integer("streams.default_depth", config.default_depth, {1, 65536}, "tokens",
                  "FIFO depth of every stream whose own depth is 0.", chosen("a distributed-memory FIFO"));
-  for (auto& [name, depth] : config.depth) {
+  for (auto& [name, tokens] : config.depths) {
     schema.integer(
-        "streams." + name + ".depth", depth, {0, 1 << 24}, "tokens",
+        "streams." + name + ".depth", tokens, {0, 1 << 24}, "tokens",
         "FIFO depth of the stream " + name +
             ". 0 is automatic: streams.default_depth, or more where paths that fork and meet again need it.",
         chosen("automatic"));

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <string>
 #include <vector>
 
@@ -13,10 +12,16 @@ class Schema;
 /// Names of the streams of the pipeline, as they appear in reports, upstream to downstream.
 const std::vector<std::string>& pipeline_stream_names();
 
+/// FIFO depth of one stream.
+struct StreamDepth {
+  std::string name;
+  std::uint32_t tokens = 0;  ///< 0 to 16777216; 0 = automatic; own choice
+};
+
 /// FIFO depths of the streams, in tokens.
 struct StreamConfig {
-  std::uint32_t default_depth = 16;            ///< of a stream whose own depth is 0; 1 to 65536; own choice
-  std::map<std::string, std::uint32_t> depth;  ///< by name; 0 = automatic, up to 16777216
+  std::uint32_t default_depth = 16;  ///< of a stream whose own depth is 0; 1 to 65536; own choice
+  std::vector<StreamDepth> depths;   ///< one per stream, upstream to downstream
 
   explicit StreamConfig(const std::vector<std::string>& names = pipeline_stream_names());
 

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "platform/configuration.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "platform/preset.hpp"
+#include "platform/preset_file.hpp"
+#include "platform/schema.hpp"
+#include "tests/platform/error_of.hpp"
+#include "tests/platform/temporary_folder.hpp"
+
+namespace parallax {
+namespace {
+
+const std::filesystem::path kShipped = PARALLAX_SOURCE_DIR "/platform/presets";
+
+Configuration load(const std::vector<std::string>& assignments) {
+  return load_configuration({"scenescan-pro", assignments, {}}, {kShipped});
+}
+
+std::string error(const std::vector<std::string>& assignments) {
+  return error_of([&] { load(assignments); });
+}
+
+TEST(MachineConfig, DefaultsAreInRangeAndFitTogether) {
+  MachineConfig config;
+  Schema schema;
+  describe(schema, config);
+  EXPECT_NO_THROW(schema.check());
+  EXPECT_NO_THROW(config.validate());
+}
+
+TEST(MachineConfig, EveryKeyIsDocumented) {
+  MachineConfig config;
+  Schema schema;
+  describe(schema, config);
+  for (const Key& key : schema.keys()) {
+    EXPECT_FALSE(key.documentation.empty()) << key.path;
+    EXPECT_EQ(key.documentation.back(), '.') << key.path;
+    EXPECT_FALSE(key.provenance.source.empty()) << key.path;
+    const bool is_number = key.type == KeyType::kInteger || key.type == KeyType::kReal;
+    EXPECT_EQ(is_number, !key.unit.empty()) << key.path;
+  }
+}
+
+TEST(MachineConfig, EveryKeyTakesBothEndsOfItsRange) {
+  MachineConfig config;
+  Schema schema;
+  describe(schema, config);
+  for (const Key& key : schema.keys()) {
+    if (key.type != KeyType::kInteger) continue;
+    for (const std::int64_t end : {key.integers.least, key.integers.most}) {
+      schema.apply({{key.path, RawValue{ConfigValue(end), {}, {}, "test"}}});
+      EXPECT_EQ(key.get(), ConfigValue(end)) << key.path;
+    }
+  }
+}
+
+TEST(ShippedPresets, EveryValueCarriesTagAndSource) {
+  ASSERT_FALSE(list_presets({kShipped}).empty());
+  for (const PresetSummary& preset : list_presets({kShipped})) {
+    const PresetFile file = read_preset_file(kShipped / (preset.name + ".toml"));
+    EXPECT_FALSE(file.description.empty()) << preset.name;
+    for (const auto& [key, value] : file.values) {
+      EXPECT_TRUE(value.tag) << value.origin << " " << key;
+      EXPECT_TRUE(value.source && !value.source->empty()) << value.origin << " " << key;
+    }
+    EXPECT_NO_THROW(load_configuration({preset.name, {}, {}}, {kShipped})) << preset.name;
+  }
+}
+
+TEST(Configuration, HasThePublishedMachineByDefault) {
+  const MachineConfig machine = load({}).machine;
+  EXPECT_EQ(machine.clocks.core_hz, 172'100'000);
+  EXPECT_EQ(machine.matching.range().count, 128);
+  EXPECT_EQ(machine.matching.p2, 42);
+  EXPECT_EQ(machine.link.host_pixel_rate, 30'780'000);
+  EXPECT_EQ(machine.timing.matching.interval, 1U);
+}
+
+TEST(Configuration, AssignmentsApplyInOrder) {
+  const MachineConfig machine =
+      load({"matching.p1=10", "matching.p2=90", "matching.p1=20", "clocks.core_hz=150e6",
+            "memory.arbitration=fixed_priority", "streams.costs.depth=99", "dma.map.burst_bytes=256",
+            "gap_interpolation.enabled=false", "census.latency=5"})
+          .machine;
+  EXPECT_EQ(machine.matching.p1, 20);
+  EXPECT_EQ(machine.matching.p2, 90);
+  EXPECT_EQ(machine.clocks.core_hz, 150'000'000);
+  EXPECT_EQ(machine.memory.arbitration, Arbitration::kFixedPriority);
+  EXPECT_EQ(machine.streams.resolve("costs", 5000), 99U);
+  EXPECT_EQ(machine.dma.map.burst_bytes, 256U);
+  EXPECT_FALSE(machine.gap_interpolation.enabled);
+  EXPECT_EQ(machine.timing.census.latency, 5U);
+}
+
+TEST(Configuration, RefusesAssignmentsByName) {
+  EXPECT_EQ(error({"matching.p3=1"}),
+            "--set matching.p3=1: unknown key matching.p3; the nearest is matching.p1");
+  EXPECT_EQ(error({"matching.p1=256"}),
+            "--set matching.p1=256: matching.p1 = 256: must be an integer from 0 to 255");
+  EXPECT_EQ(error({"matching.p1"}), "--set matching.p1: must have the form key=value");
+}
+
+TEST(Configuration, SaysWhoSetTheValuesThatDoNotFitTogether) {
+  EXPECT_EQ(error({"matching.p1=42", "matching.p2=42"}),
+            "matching.p1 = 42: must be below matching.p2 = 42 (matching.p1: --set matching.p1=42, "
+            "matching.p2: --set "
+            "matching.p2=42)");
+  EXPECT_EQ(
+      error({"matching.iterations=8", "matching.disparity_offset=1"}),
+      "matching.disparity_offset + matching.iterations x matching.parallelism = 1 + 8 x 32 = 257: must be at "
+      "most 256 (matching.disparity_offset: --set matching.disparity_offset=1, matching.iterations: --set "
+      "matching.iterations=8, matching.parallelism: " +
+          (kShipped / "scenescan-pro.toml").string() + ":45)");
+}
+
+TEST(Configuration, ChecksWhatMustFitTogether) {
+  const auto starts = [](const std::vector<std::string>& assignments, const std::string& begin) {
+    EXPECT_EQ(error(assignments).substr(0, begin.size()), begin);
+  };
+  starts({"dma.left.data_bits=12"}, "dma.left.data_bits = 12: must be a multiple of 8 (");
+  starts({"dma.map.burst_bytes=100"},
+         "dma.map.burst_bytes = 100: must be a multiple of the 8 bytes of dma.map.data_bits (");
+  starts({"dma.link.fifo_bytes=64"},
+         "dma.link.fifo_bytes = 64: must hold a burst: at least dma.link.burst_bytes = 128 (");
+  starts({"link.packet_payload_bytes=1600"},
+         "link.packet_payload_bytes = 1600: must be at most link.packet_wire_bytes = 1538 (");
+  starts({"image.width=1888"}, "image.width = 1888: must be at most image.max_width = 1856 (");
+  starts({"image.height=1872"}, "image.height = 1872: must be at most image.max_height = 1856 (");
+  starts({"census.window_width=4"}, "census.window_width = 4");
+  starts({"census.window_width=9", "census.window_height=9"}, "census.window_width x census.window_height");
+  starts({"rectification.window=80"}, "rectification.window: 80");
+  starts({"texture.window=4"}, "texture.window: 4");
+  starts({"speckle.window=4"}, "speckle.window: 4");
+  starts({"noise_reduction.window=4"}, "noise_reduction.window: 4");
+}
+
+TEST(Configuration, TakesTheDisparityRange) {
+  const auto with_range = [](std::int64_t range, std::vector<std::string> assignments) {
+    return load_configuration({"scenescan-pro", std::move(assignments), range}, {kShipped});
+  };
+  EXPECT_EQ(with_range(256, {}).machine.matching.iterations, 8);
+  EXPECT_EQ(with_range(192, {"matching.parallelism=64"}).machine.matching.iterations, 3);
+  EXPECT_EQ(error_of([&] { with_range(100, {}); }),
+            "--disparities 100: must be a positive multiple of matching.parallelism = 32");
+  EXPECT_EQ(error_of([&] { with_range(0, {}); }),
+            "--disparities 0: must be a positive multiple of matching.parallelism = 32");
+  EXPECT_EQ(error_of([&] { with_range(288, {}); }).substr(0, 40), "matching.disparity_offset + matching.ite");
+  EXPECT_EQ(error_of([&] { with_range(32 * 257, {}); }),
+            "--disparities 8224: matching.iterations = 257: must be an integer from 1 to 256");
+}
+
+TEST(Configuration, AFaultInAPresetNamesFileAndLine) {
+  TemporaryFolder folder;
+  const std::string path = folder.write("a.toml", "inherits = \"scenescan-pro\"\n[matching]\np1 = 300\n");
+  EXPECT_EQ(error_of([&] {
+              load_configuration({path, {}, {}}, {kShipped});
+            }),
+            path + ":3: matching.p1 = 300: must be an integer from 0 to 255");
+}
+
+TEST(StreamConfig, AutomaticDepthsFollowWhatIsNeeded) {
+  StreamConfig streams({"a", "b"});
+  streams.depths[1].tokens = 4;
+  EXPECT_EQ(streams.resolve("a", 0), 16U);
+  EXPECT_EQ(streams.resolve("a", 1000), 1000U);
+  EXPECT_EQ(streams.resolve("b", 1000), 4U);
+  EXPECT_THROW(streams.resolve("c", 0), std::logic_error);
+}
+
+}  // namespace
+}  // namespace parallax

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "platform/progress.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <sstream>
+
+namespace parallax {
+namespace {
+
+using std::chrono::seconds;
+
+TEST(Progress, ShowsShareAndTimeLeft) {
+  EXPECT_EQ(Progress::line("frames", 0, 100, seconds(0)), "[                        ] 0/100 frames");
+  EXPECT_EQ(Progress::line("frames", 50, 100, seconds(3)),
+            "[============            ] 50/100 frames, 3 s left");
+  EXPECT_EQ(Progress::line("frames", 1, 100, seconds(1)),
+            "[                        ] 1/100 frames, 1 min 39 s left");
+  EXPECT_EQ(Progress::line("frames", 1, 3, seconds(3600)),
+            "[========                ] 1/3 frames, 2 h 00 min left");
+  EXPECT_EQ(Progress::line("frames", 3, 3, seconds(1)), "[========================] 3/3 frames");
+  EXPECT_EQ(Progress::line("frames", 0, 0, seconds(1)), "[                        ] 0/0 frames");
+}
+
+TEST(Progress, PrintsNothingInAPipe) {
+  std::ostringstream out;
+  {
+    Progress progress(out, false, "frames", 2);
+    progress.advance();
+    progress.advance();
+  }
+  EXPECT_EQ(out.str(), "");
+}
+
+TEST(Progress, DrawsAtMostTenTimesASecondAndWipesTheLine) {
+  std::ostringstream out;
+  const auto start = Progress::Clock::now();
+  {
+    Progress progress(out, true, "frames", 1000);
+    for (int i = 0; i < 999; ++i) progress.advance(1, start + std::chrono::milliseconds(i));
+    progress.advance(1, start + seconds(1));
+  }
+  const std::string text = out.str();
+  const auto lines = std::count(text.begin(), text.end(), '[') - std::count(text.begin(), text.end(), '\033');
+  EXPECT_GE(lines, 9);
+  EXPECT_LE(lines, 12);
+  EXPECT_NE(text.find("1000/1000 frames"), std::string::npos);
+  EXPECT_EQ(text.substr(text.size() - 4), "\r\033[K");
+}
+
+}  // namespace
+}  // namespace parallax
