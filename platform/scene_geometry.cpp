@@ -64,9 +64,10 @@ std::vector<SceneSurface> place_surfaces(const SceneConfig& config, int frame) {
   // A range wider than a third of the image would put most of the scene outside the right image.
   // The floor of half a pixel keeps every depth finite where there is only one disparity.
   const double range = std::max(0.5, std::min(config.disparities - 1.0, width / 3));
-  // The camera moves along its baseline and a little upward; everything else shifts against it.
-  const cv::Vec3d camera(0.4 * kBaseline * config.motion * sway(frame, 0),
-                         0.1 * kBaseline * config.motion * sway(frame, 0.25), 0);
+  // The camera moves along its baseline and a little upward; everything else shifts against it. With an
+  // offset the same motion in metres would be more pixels.
+  const double stride = kBaseline * config.motion * range / (config.disparity_offset + range);
+  const cv::Vec3d camera(0.4 * stride * sway(frame, 0), 0.1 * stride * sway(frame, 0.25), 0);
 
   std::vector<SceneSurface> surfaces;
   std::uint64_t counter = 0;
@@ -77,7 +78,8 @@ std::vector<SceneSurface> place_surfaces(const SceneConfig& config, int frame) {
     const double y = (row.y + jitter(room ? 0 : 0.02)) * height;
     const double disparity = config.disparity_offset + (row.disparity + jitter(0.01)) * range;
     const double slope_x = row.slope_x * range / width;
-    const double slope_y = row.slope_y * range / height;
+    // In an image of few rows the floor would be seen edge on.
+    const double slope_y = std::clamp(row.slope_y * range / height, -1.0, 1.0);
     const double px = (x - view.cx) / view.focal;
     const double py = (y - view.cy) / view.focal;
     const double depth = view.focal * view.baseline / disparity;
