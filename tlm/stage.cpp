@@ -97,7 +97,7 @@ bool Stage::fire() {
   ++statistics_.firings;
 
   if (frame_begins) {
-    frames_.push_back({start, start, start});
+    frames_.push_back({start, start, Cycles(-1), Cycles(-1)});
   }
   frames_.back().last_firing = start;
   free_ = start + Cycles(phase.interval);
@@ -141,7 +141,9 @@ bool Stage::write(const Pending& firing, Cycles earliest) {
   for_each(outputs_, firing.produce, [&](StreamBase& stream) {
     stream.mark_written(last_write_, &stream == latest ? blocked : Cycles(0));
   });
-  frames_[firing.frame].last_write = last_write_;
+  FrameDates& frame = frames_[firing.frame];
+  if (frame.first_write < Cycles(0)) frame.first_write = last_write_;
+  frame.last_write = last_write_;
   return true;
 }
 

@@ -19,7 +19,8 @@ namespace parallax {
 struct FrameDates {
   Cycles first_firing;
   Cycles last_firing;
-  Cycles last_write;
+  Cycles first_write{-1};  ///< -1: none yet
+  Cycles last_write{-1};
 };
 
 /// Where a stage's time went, in cycles of its clock.

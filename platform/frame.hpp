@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <systemc>
+#include <vector>
+
+#include "modules/pixel.hpp"
+#include "platform/sensor.hpp"
+
+namespace parallax {
+
+/// What goes into the machine: one exposure of both sensors. Without images the frame is timing only.
+struct StereoFrame {
+  SensorImage left;
+  SensorImage right;
+};
+
+/// When a frame reached the parts of the machine, in kernel time.
+struct FrameTimes {
+  sc_core::sc_time exposed;          ///< end of exposure, read-out begins
+  sc_core::sc_time in_memory;        ///< both images complete in memory, processing begins
+  sc_core::sc_time first_disparity;  ///< first disparity out of the last filter
+  sc_core::sc_time last_disparity;   ///< last disparity out of the last filter
+  sc_core::sc_time results_in_memory;
+  sc_core::sc_time at_host;  ///< last bit on the wire; results_in_memory when the link is off
+};
+
+/// What comes out for one frame. Images are row-major and of the machine's size; empty for a timing-only frame.
+struct FrameResult {
+  std::int64_t index = 0;
+  std::vector<Gray> left;              ///< rectified left image, as the host receives it
+  std::vector<Disparity> disparities;  ///< values as the host receives them, with the causes known to the model
+};
+
+}  // namespace parallax

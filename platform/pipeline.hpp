@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <systemc>
+#include <vector>
+
+#include "modules/census_stage.hpp"
+#include "modules/consistency_stage.hpp"
+#include "modules/gap_interpolation_stage.hpp"
+#include "modules/map_codec.hpp"
+#include "modules/map_decoder_stage.hpp"
+#include "modules/matching_stage.hpp"
+#include "modules/noise_reduction_stage.hpp"
+#include "modules/output_packing_stage.hpp"
+#include "modules/rectification_stage.hpp"
+#include "modules/speckle_stage.hpp"
+#include "modules/subpixel_stage.hpp"
+#include "modules/texture_stage.hpp"
+#include "modules/uniqueness_stage.hpp"
+#include "platform/machine_config.hpp"
+#include "tlm/dma.hpp"
+#include "tlm/unpacker.hpp"
+
+namespace parallax {
+
+/// A stage with what it declares, for reports.
+struct StageInfo {
+  const Stage* stage;
+  Bits storage;  ///< line buffers and the like, beside the FIFOs
+};
+
+/// The stereo pipeline, from the bursts of the three input ports to those of the output port: the stages, and the
+/// streams between them. This is the one place that knows which stage follows which.
+class Pipeline final : public sc_core::sc_module {
+ public:
+  Pipeline(const sc_core::sc_module_name& name, const MachineConfig& config, const EncodedMap& map,
+           const StageContext& context);
+
+  /// Binds the engines that bring the left image, the right image and the map, and the one that takes the results.
+  void bind(DmaReader& left, DmaReader& right, DmaReader& map, DmaWriter& output);
+
+  OutputPackingStage& output() { return output_packing_; }
+  /// The stage whose tokens are the final disparities.
+  const Stage& last_filter() const { return noise_reduction_; }
+  const Stage& matcher() const { return matching_; }
+  std::vector<StageInfo> stages() const;
+
+ private:
+  template <class T>
+  Stream<T>& stream(const char* name, std::int64_t width_bits, std::uint64_t needed_depth = 0);
+
+  const MachineConfig& config_;
+  const StageContext context_;
+
+  Unpacker<Gray> unpack_left_;
+  Unpacker<Gray> unpack_right_;
+  Unpacker<std::uint8_t> unpack_map_;
+  MapDecoderStage map_decoder_;
+  RectificationStage rectification_;
+  CensusStage census_;
+  MatchingStage matching_;
+  SubpixelStage subpixel_;
+  UniquenessStage uniqueness_;
+  ConsistencyStage consistency_;
+  TextureStage texture_;
+  SpeckleStage speckle_;
+  GapInterpolationStage gap_interpolation_;
+  NoiseReductionStage noise_reduction_;
+  OutputPackingStage output_packing_;
+
+  Stream<std::uint8_t> left_bursts_;
+  Stream<std::uint8_t> right_bursts_;
+  Stream<std::uint8_t> map_bursts_;
+  Stream<std::uint8_t> output_bursts_;
+  std::vector<std::unique_ptr<StreamBase>> streams_;
+};
+
+/// Engine parameters of a configured port.
+DmaEngineConfig engine_config(const DmaPortConfig& port);
+
+}  // namespace parallax

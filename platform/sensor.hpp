@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <systemc>
+#include <vector>
+
+#include "modules/pixel.hpp"
+#include "tlm/stream.hpp"
+#include "tlm/units.hpp"
+
+namespace parallax {
+
+struct SensorConfig {
+  int width = 0;   ///< px
+  int height = 0;  ///< px
+  Cycles row{0};   ///< pixel clocks from one row's first pixel to the next one's
+  Cycles frame_blanking{0};
+  Bytes burst{128};
+};
+
+/// One image as a sensor sees it; without pixels it has a size and a time only.
+using SensorImage = std::shared_ptr<const std::vector<Gray>>;
+
+/// One sensor of the stereo camera with its cable: reads an exposed image out in raster order, a row every `row`
+/// cycles, 8 bit a pixel, and hands it on in bursts. It cannot wait: a burst that finds the FIFO full is late.
+class Sensor final : public sc_core::sc_module {
+ public:
+  StreamOut<std::uint8_t> out_bursts{"out_bursts"};
+
+  Sensor(const sc_core::sc_module_name& name, const SensorConfig& config, const ClockDomain& clock,
+         Dataflow& dataflow);
+
+  /// Starts to read out an image, after the one before is out.
+  void read_out(SensorImage image);
+  /// Pixel clocks of one frame, blanking included.
+  Cycles frame_time() const;
+  std::uint64_t late_bursts() const { return late_bursts_; }
+
+ private:
+  void run();
+
+  const SensorConfig config_;
+  const ClockDomain& clock_;
+  Dataflow& dataflow_;
+  std::deque<SensorImage> images_;
+  sc_core::sc_event exposed_;
+  std::uint64_t late_bursts_ = 0;
+};
+
+}  // namespace parallax
