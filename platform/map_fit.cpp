@@ -19,6 +19,10 @@ constexpr int kRows = 37;
 constexpr double kZoomStep = 1.01;
 constexpr int kZoomSteps = 139;  // 1.01^139 = 3.99
 constexpr int kShiftIterations = 25;
+// A zoom is given up when, after a few shifts, one more does not take off a tenth of what is left beyond the
+// window.
+constexpr int kPatience = 3;
+constexpr double kProgress = 0.9;
 constexpr int kRefinements = 8;
 constexpr int kVerifications = 6;
 
@@ -30,7 +34,8 @@ struct Interval {
     low = std::min(low, other.low);
     high = std::max(high, other.high);
   }
-  bool within(double reach) const { return low >= -reach && high <= reach; }
+  /// How far it extends beyond +-reach; 0 or less if it does not.
+  double beyond(double reach) const { return std::max(high, -low) - reach; }
   /// The least shift that brings the interval within +-reach; the one that centres it when it is too long.
   double shift_into(double reach) const {
     if (high - low > 2 * reach) {
@@ -114,6 +119,7 @@ class Search {
   std::optional<Fit> at_zoom(double zoom) const {
     Fit fit;
     fit.zoom = zoom;
+    double previous = 0;
     for (int i = 0; i < kShiftIterations; ++i) {
       const RawMaps maps = sampled_maps(moved(calibration_, fit), columns_, rows_);
       Interval left = offsets(maps.left_x, step_x_, true);
@@ -124,12 +130,14 @@ class Search {
         left.add(right);
         right = left;
       }
-      if (left.within(reach_) && right.within(reach_) && vertical.within(reach_)) {
+      const double left_over = std::max({left.beyond(reach_), right.beyond(reach_), vertical.beyond(reach_)});
+      if (left_over <= 0) {
         return fit;
       }
-      if (!std::isfinite(left.high) || !std::isfinite(right.high) || !std::isfinite(vertical.high)) {
+      if (!std::isfinite(left_over) || (i >= kPatience && left_over > kProgress * previous)) {
         return std::nullopt;
       }
+      previous = left_over;
       // Moving the principal point by s moves the offsets by about -s. A little inside, so that it converges.
       const double inside = reach_ - 0.05;
       fit.shift_left_x -= left.shift_into(inside);
