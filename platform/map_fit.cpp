@@ -25,6 +25,7 @@ constexpr int kPatience = 3;
 constexpr double kProgress = 0.9;
 constexpr int kRefinements = 8;
 constexpr int kVerifications = 6;
+constexpr double kLargestReach = (OffsetRange::kLargestWindow - 1) / 2.0;
 
 struct Interval {
   double low = std::numeric_limits<double>::infinity();
@@ -115,11 +116,29 @@ class Search {
     return std::nullopt;
   }
 
+  /// How far beyond the reach the best zoom and shift are.
+  double least_beyond() const {
+    double least = std::numeric_limits<double>::infinity();
+    for (int step = -kZoomSteps; step <= kZoomSteps; ++step) {
+      Fit fit;
+      fit.zoom = std::pow(kZoomStep, step);
+      least = std::min(least, settle(fit));
+    }
+    return least;
+  }
+
  private:
   std::optional<Fit> at_zoom(double zoom) const {
     Fit fit;
     fit.zoom = zoom;
-    double previous = 0;
+    return settle(fit) <= 0 ? std::optional<Fit>(fit) : std::nullopt;
+  }
+
+  // Shifts `fit` until its offsets are within reach or get no closer; returns how far beyond they are at
+  // best.
+  double settle(Fit& fit) const {
+    double best = std::numeric_limits<double>::infinity();
+    double previous = best;
     for (int i = 0; i < kShiftIterations; ++i) {
       const RawMaps maps = sampled_maps(moved(calibration_, fit), columns_, rows_);
       Interval left = offsets(maps.left_x, step_x_, true);
@@ -130,21 +149,19 @@ class Search {
         left.add(right);
         right = left;
       }
-      const double left_over = std::max({left.beyond(reach_), right.beyond(reach_), vertical.beyond(reach_)});
-      if (left_over <= 0) {
-        return fit;
+      const double beyond = std::max({left.beyond(reach_), right.beyond(reach_), vertical.beyond(reach_)});
+      best = std::min(best, beyond);
+      if (beyond <= 0 || !std::isfinite(beyond) || (i >= kPatience && beyond > kProgress * previous)) {
+        break;
       }
-      if (!std::isfinite(left_over) || (i >= kPatience && left_over > kProgress * previous)) {
-        return std::nullopt;
-      }
-      previous = left_over;
+      previous = beyond;
       // Moving the principal point by s moves the offsets by about -s. A little inside, so that it converges.
-      const double inside = reach_ - 0.05;
+      const double inside = std::max(reach_ - 0.05, 0.0);
       fit.shift_left_x -= left.shift_into(inside);
       fit.shift_right_x -= right.shift_into(inside);
       fit.shift_y -= vertical.shift_into(inside);
     }
-    return std::nullopt;
+    return best;
   }
 
   Fit refine(Fit best, int failing_step) const {
@@ -208,6 +225,21 @@ std::optional<Fit> fit(const Calibration& calibration, const OffsetRange& range)
     }
   }
   return std::nullopt;
+}
+
+int smallest_window(const Calibration& calibration, const OffsetRange& range) {
+  const double reach = Search(calibration, 0, true).least_beyond();
+  OffsetRange wider = range;
+  if (!(reach <= kLargestReach)) {
+    return 0;
+  }
+  wider.window = 2 * static_cast<int>(std::ceil(reach)) + 1;
+  for (int i = 0; i < kVerifications && wider.limit() <= OffsetRange::kLargestLimit; ++i, wider.window += 2) {
+    if (fit(calibration, wider)) {
+      return wider.window;
+    }
+  }
+  return 0;
 }
 
 }  // namespace parallax

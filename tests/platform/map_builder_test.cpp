@@ -198,17 +198,40 @@ TEST_F(MapBuilder, FitMovesTheImagesApartOnlyWhenNothingElseFits) {
   EXPECT_NEAR(point[2] / point[3], 10, 1e-6);
 }
 
-TEST_F(MapBuilder, SaysWhenNothingFits) {
-  // A lens so wide that a pinhole image of it bends by hundreds of px.
+TEST_F(MapBuilder, SaysWhichWindowAZoomNeedsWhenNothingFits) {
+  // A lens so wide that a pinhole image of it bends by more than the window whatever the zoom.
   SyntheticPair pair = test::fisheye_pair();
-  pair.width = 848;
-  pair.height = 800;
-  pair.focal = 200;
+  pair.width = 640;
+  pair.height = 480;
+  pair.focal = 280;
   const Calibration c = calibration(pair);
-  EXPECT_FALSE(fit(c, {}));
+  ASSERT_FALSE(fit(c, {}));
+  const int window = smallest_window(c, {});
+  ASSERT_GT(window, 79);
+  EXPECT_LT(window, survey(raw_maps(c), {}).window_needed);
+  EXPECT_FALSE(fit(c, {window - 4, 5}));
+  const std::optional<Fit> found = fit(c, {window, 5});
+  ASSERT_TRUE(found);
+  EXPECT_TRUE(survey(raw_maps(found->calibration), {window, 5}).fits());
   const std::string line = message([&] { build_map(c, {}); });
-  EXPECT_NE(line.find("no zoom of 0.25..4 and shift fits, so --fit cannot help"), std::string::npos) << line;
+  EXPECT_NE(line.find("; no zoom of 0.25..4 and shift fits into this one, but --fit with a window of " +
+                      std::to_string(window) + ": zoom "),
+            std::string::npos)
+      << line;
   EXPECT_EQ(line.find('\n'), std::string::npos);
+}
+
+TEST_F(MapBuilder, SaysWhenNothingFitsAtAll) {
+  Calibration c = calibration(test::fisheye_pair());
+  // Turned away by 120 degrees: the rectified image looks behind the camera.
+  c.R1 = {-0.5, 0, 0.866, 0, 1, 0, -0.866, 0, -0.5};
+  EXPECT_FALSE(fit(c, {}));
+  EXPECT_EQ(smallest_window(c, {}), 0);
+  const std::string line = message([&] { build_map(c, {}); });
+  EXPECT_NE(line.find("no window would do; no zoom of 0.25..4 and shift fits into this one"),
+            std::string::npos)
+      << line;
+  EXPECT_EQ(line.find("--fit"), std::string::npos);
 }
 
 TEST_F(MapBuilder, ARectifiedPairHasTheIdentityMap) {
