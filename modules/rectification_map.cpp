@@ -11,9 +11,6 @@ namespace parallax {
 
 namespace {
 
-// The width field of the compressed map is 4 bits, so an offset has at most 15.
-constexpr int kLargestLimit = 16383;
-constexpr int kLargestWindow = 2047;
 constexpr int kLargestFractionBits = 8;
 
 }  // namespace

@@ -15,6 +15,10 @@ struct OffsetRange {
   /// Fraction bits of an offset, 0..8. Source: own choice, 5 as in OpenCV's remap. The paper says "subpixel".
   int fraction_bits = 5;
 
+  static constexpr int kLargestWindow = 2047;
+  /// The width field of the compressed map is 4 bits, so an offset has at most 15.
+  static constexpr int kLargestLimit = 16383;
+
   /// Throws UserError unless both are in range and an offset fits into 15 bits.
   void validate() const;
 

@@ -13,9 +13,18 @@ namespace parallax {
 namespace {
 
 std::string remedy(const Calibration& calibration, const OffsetRange& range) {
-  const std::optional<Fit> found = fit(calibration, range);
-  return found ? fmt::format(", or --fit: {}", found->text())
-               : std::string("; no zoom of 0.25..4 and shift fits, so --fit cannot help");
+  if (const std::optional<Fit> found = fit(calibration, range)) {
+    return fmt::format(", or --fit: {}", found->text());
+  }
+  const std::string none = "; no zoom of 0.25..4 and shift fits into this one";
+  OffsetRange wider = range;
+  wider.window = smallest_window(calibration, range);
+  if (wider.window == 0) {
+    return none;
+  }
+  const std::optional<Fit> found = fit(calibration, wider);
+  return none +
+         (found ? fmt::format(", but --fit with a window of {}: {}", wider.window, found->text()) : "");
 }
 
 }  // namespace

@@ -19,8 +19,13 @@ constexpr int kRows = 37;
 constexpr double kZoomStep = 1.01;
 constexpr int kZoomSteps = 139;  // 1.01^139 = 3.99
 constexpr int kShiftIterations = 25;
+// A zoom is given up when, after a few shifts, one more does not take off a tenth of what is left beyond the
+// window.
+constexpr int kPatience = 3;
+constexpr double kProgress = 0.9;
 constexpr int kRefinements = 8;
 constexpr int kVerifications = 6;
+constexpr double kLargestReach = (OffsetRange::kLargestWindow - 1) / 2.0;
 
 struct Interval {
   double low = std::numeric_limits<double>::infinity();
@@ -30,7 +35,8 @@ struct Interval {
     low = std::min(low, other.low);
     high = std::max(high, other.high);
   }
-  bool within(double reach) const { return low >= -reach && high <= reach; }
+  /// How far it extends beyond +-reach; 0 or less if it does not.
+  double beyond(double reach) const { return std::max(high, -low) - reach; }
   /// The least shift that brings the interval within +-reach; the one that centres it when it is too long.
   double shift_into(double reach) const {
     if (high - low > 2 * reach) {
@@ -110,10 +116,29 @@ class Search {
     return std::nullopt;
   }
 
+  /// How far beyond the reach the best zoom and shift are.
+  double least_beyond() const {
+    double least = std::numeric_limits<double>::infinity();
+    for (int step = -kZoomSteps; step <= kZoomSteps; ++step) {
+      Fit fit;
+      fit.zoom = std::pow(kZoomStep, step);
+      least = std::min(least, settle(fit));
+    }
+    return least;
+  }
+
  private:
   std::optional<Fit> at_zoom(double zoom) const {
     Fit fit;
     fit.zoom = zoom;
+    return settle(fit) <= 0 ? std::optional<Fit>(fit) : std::nullopt;
+  }
+
+  // Shifts `fit` until its offsets are within reach or get no closer; returns how far beyond they are at
+  // best.
+  double settle(Fit& fit) const {
+    double best = std::numeric_limits<double>::infinity();
+    double previous = best;
     for (int i = 0; i < kShiftIterations; ++i) {
       const RawMaps maps = sampled_maps(moved(calibration_, fit), columns_, rows_);
       Interval left = offsets(maps.left_x, step_x_, true);
@@ -124,19 +149,19 @@ class Search {
         left.add(right);
         right = left;
       }
-      if (left.within(reach_) && right.within(reach_) && vertical.within(reach_)) {
-        return fit;
+      const double beyond = std::max({left.beyond(reach_), right.beyond(reach_), vertical.beyond(reach_)});
+      best = std::min(best, beyond);
+      if (beyond <= 0 || !std::isfinite(beyond) || (i >= kPatience && beyond > kProgress * previous)) {
+        break;
       }
-      if (!std::isfinite(left.high) || !std::isfinite(right.high) || !std::isfinite(vertical.high)) {
-        return std::nullopt;
-      }
+      previous = beyond;
       // Moving the principal point by s moves the offsets by about -s. A little inside, so that it converges.
-      const double inside = reach_ - 0.05;
+      const double inside = std::max(reach_ - 0.05, 0.0);
       fit.shift_left_x -= left.shift_into(inside);
       fit.shift_right_x -= right.shift_into(inside);
       fit.shift_y -= vertical.shift_into(inside);
     }
-    return std::nullopt;
+    return best;
   }
 
   Fit refine(Fit best, int failing_step) const {
@@ -200,6 +225,21 @@ std::optional<Fit> fit(const Calibration& calibration, const OffsetRange& range)
     }
   }
   return std::nullopt;
+}
+
+int smallest_window(const Calibration& calibration, const OffsetRange& range) {
+  const double reach = Search(calibration, 0, true).least_beyond();
+  OffsetRange wider = range;
+  if (!(reach <= kLargestReach)) {
+    return 0;
+  }
+  wider.window = 2 * static_cast<int>(std::ceil(reach)) + 1;
+  for (int i = 0; i < kVerifications && wider.limit() <= OffsetRange::kLargestLimit; ++i, wider.window += 2) {
+    if (fit(calibration, wider)) {
+      return wider.window;
+    }
+  }
+  return 0;
 }
 
 }  // namespace parallax

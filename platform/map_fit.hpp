@@ -31,4 +31,8 @@ struct Fit {
 /// move alike unless only different shifts fit. Nothing if no zoom and shift do.
 std::optional<Fit> fit(const Calibration& calibration, const OffsetRange& range);
 
+/// The smallest window for which fit() finds something, for a lens that fits into `range` with no zoom and
+/// shift; 0 if there is none.
+int smallest_window(const Calibration& calibration, const OffsetRange& range);
+
 }  // namespace parallax
