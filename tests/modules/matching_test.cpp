@@ -127,6 +127,7 @@ TEST(matching, declares_what_its_circuit_needs) {
     // 24 + 255 needs 9 bits; 128 costs and a minimum for three paths of a row and for one pixel.
     EXPECT_EQ(matching.storage_bits(), 9 * 129 * (3 * 640 + 1) + 24 * 127);
     EXPECT_EQ(matching.external_storage_bits(), 0);
+    EXPECT_EQ(matching.cost_bits(), 11);  // 4 * 279
   }
   config.paths = kEightPaths;
   const Matching matching(config, 64, 48, 24);
