@@ -173,6 +173,10 @@ void Matching::push(const CensusCode* left, const CensusCode* right, const RowSi
     emit(s.frame_sums.data() + product(y, s.width) * static_cast<std::size_t>(s.count));
 }
 
+int Matching::cost_bits() const {
+  return bits_for(path_count(state_->config.paths) * (state_->code_bits + kMaxPenalty));
+}
+
 int Matching::look_ahead_rows() const { return state_->second_pass.empty() ? 0 : state_->height - 1; }
 
 int Matching::look_ahead_pixels() const {
@@ -191,8 +195,7 @@ std::int64_t Matching::storage_bits() const {
   std::int64_t bits = pixel_bits * (width * std::max(northern, southern) + horizontal);
   bits += std::int64_t{s.code_bits} * s.config.range().last();
   if (s.config.paths & kPathE) {
-    const int sum_bits = bits_for(path_count(s.config.paths) * (s.code_bits + kMaxPenalty));
-    bits += width * s.count * (bits_for(s.code_bits) + sum_bits);
+    bits += width * s.count * (bits_for(s.code_bits) + cost_bits());
   }
   return bits;
 }

@@ -52,8 +52,9 @@ struct MatchingConfig {
   int p1 = 8;                ///< penalty for a change of one disparity, 0..255, p1 < p2; S (device default)
   int p2 = 42;               ///< penalty for a larger change, 0..255; S (device default)
   unsigned paths = kFourPaths;  ///< set of PathBit, at least one; I: one pass over the image
-  OutsideCost outside_cost = OutsideCost::kMaximum;  ///< own choice
-  PathStart path_start = PathStart::kCost;           ///< own choice
+  OutsideCost outside_cost =
+      OutsideCost::kReplicate;              ///< own choice: fewest false matches at the left border
+  PathStart path_start = PathStart::kCost;  ///< own choice
 
   DisparityRange range() const { return {disparity_offset, iterations * parallelism}; }
   void validate() const;
@@ -80,6 +81,9 @@ class Matching {
 
   /// One row of `width` codes of each image; emits rows of width * range().count costs.
   void push(const CensusCode* left, const CensusCode* right, const RowSink<Cost>& emit);
+
+  /// Width of an output value in the circuit.
+  int cost_bits() const;
 
   int look_ahead_rows() const;
   int look_ahead_pixels() const;

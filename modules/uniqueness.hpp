@@ -12,9 +12,9 @@ namespace parallax {
 
 struct UniquenessConfig {
   bool enabled = true;  ///< S (device default: on)
-  /// q in 1/256, 256..4096 (q = 1..16; S: q >= 1). I: the device's sensitivity s (0..256, default 65, S)
-  /// taken as q = 1 + s / 256.
-  int factor = 256 + 65;
+  /// q in 1/256, 256..4096 (q = 1..16; S: q >= 1). 1.15: own choice, from pairs with ground truth; how the
+  /// device's sensitivity (0..256, default 65, S) maps to q is not published.
+  int factor = 294;
   /// Whether the two disparities next to the minimum count as a match of their own. They belong to the same
   /// minimum and are nearly as cheap wherever the true disparity lies half-way; own choice.
   bool neighbours_are_rivals = false;

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "modules/matching.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include "tests/modules/images.hpp"
+#include "tests/modules/naive_matching.hpp"
+#include "tests/modules/user_error.hpp"
+
+namespace parallax {
+namespace {
+
+using test::complaint;
+using test::Grid;
+
+Grid<Cost> run(Matching& matching, DisparityRange range, const Grid<CensusCode>& left,
+               const Grid<CensusCode>& right) {
+  return test::collect<Cost>(left.width, left.height, range.count, [&](int y, const auto& emit) {
+    matching.push(left.row(y), right.row(y), emit);
+  });
+}
+
+Grid<Cost> run(const MatchingConfig& config, int code_bits, const Grid<CensusCode>& left,
+               const Grid<CensusCode>& right) {
+  Matching matching(config, left.width, left.height, code_bits);
+  return run(matching, config.range(), left, right);
+}
+
+Grid<CensusCode> random_codes(int width, int height, int code_bits, std::uint32_t seed) {
+  return test::random_grid<CensusCode>(width, height, 1, (CensusCode{1} << code_bits) - 1, seed);
+}
+
+MatchingConfig any_config() {
+  MatchingConfig config;
+  config.parallelism = *rc::gen::element(1, 2, 7, 16, 32);
+  config.iterations = *rc::gen::inRange(1, 4);
+  config.disparity_offset = *rc::gen::element(0, 1, 5, 160);
+  config.p1 = *rc::gen::element(0, 1, 8, 254);
+  config.p2 = *rc::gen::inRange(config.p1 + 1, 256);
+  config.paths = *rc::gen::inRange(1U, kEightPaths + 1);
+  config.outside_cost =
+      *rc::gen::element(OutsideCost::kMaximum, OutsideCost::kReplicate, OutsideCost::kZeroCode);
+  config.path_start =
+      *rc::gen::element(PathStart::kCost, PathStart::kClamp, PathStart::kCarry, PathStart::kDelayLine);
+  return config;
+}
+
+RC_GTEST_PROP(matching, equals_its_definition, ()) {
+  const MatchingConfig config = any_config();
+  const int code_bits = *rc::gen::element(1, 8, 9, 24, 48, 63);
+  const int width = *rc::gen::inRange(1, 40);
+  const int height = *rc::gen::inRange(1, 8);
+  const auto seed = *rc::gen::arbitrary<std::uint32_t>();
+  Matching matching(config, width, height, code_bits);
+  for (std::uint32_t frame = 0; frame < 2; ++frame) {
+    const auto left = random_codes(width, height, code_bits, seed + 2 * frame);
+    const auto right = random_codes(width, height, code_bits, seed + 2 * frame + 1);
+    RC_ASSERT(run(matching, config.range(), left, right) ==
+              test::naive_matching(config, code_bits, left, right));
+  }
+}
+
+TEST(matching, flat_image) {
+  const Grid<CensusCode> flat(50, 6);
+  const MatchingConfig config;
+  EXPECT_EQ(run(config, 24, flat, flat), test::naive_matching(config, 24, flat, flat));
+}
+
+TEST(matching, largest_costs_do_not_overflow) {
+  Grid<CensusCode> left(40, 6);
+  for (CensusCode& code : left.data) code = (CensusCode{1} << 63) - 1;
+  auto right = random_codes(40, 6, 63, 11);
+  MatchingConfig config;
+  config.p1 = 254;
+  config.p2 = 255;
+  config.paths = kEightPaths;
+  EXPECT_EQ(run(config, 63, left, right), test::naive_matching(config, 63, left, right));
+}
+
+TEST(matching, full_range_of_256) {
+  MatchingConfig config;
+  config.iterations = 8;
+  const auto left = random_codes(300, 5, 24, 1);
+  const auto right = random_codes(300, 5, 24, 2);
+  EXPECT_EQ(run(config, 24, left, right), test::naive_matching(config, 24, left, right));
+}
+
+TEST(matching, widest_rows) {
+  MatchingConfig config;
+  config.iterations = 2;
+  const auto left = random_codes(1856, 12, 24, 1);
+  const auto right = random_codes(1856, 12, 24, 2);
+  EXPECT_EQ(run(config, 24, left, right), test::naive_matching(config, 24, left, right));
+}
+
+TEST(matching, largest_image) {
+  MatchingConfig config;
+  config.parallelism = 4;
+  config.iterations = 1;
+  const auto left = random_codes(1856, 1856, 24, 1);
+  const auto right = random_codes(1856, 1856, 24, 2);
+  EXPECT_EQ(run(config, 24, left, right), test::naive_matching(config, 24, left, right));
+}
+
+TEST(matching, emits_each_row_at_once_unless_a_second_pass_is_needed) {
+  const auto codes = random_codes(8, 4, 24, 3);
+  for (const unsigned paths : {kFourPaths, kFourPaths | kPathE, kEightPaths, unsigned{kPathS}}) {
+    MatchingConfig config;
+    config.paths = paths;
+    const bool two_passes = (paths & kSouthernPaths) != 0;
+    Matching matching(config, 8, 4, 24);
+    int emitted = 0;
+    for (int y = 0; y < 4; ++y) {
+      matching.push(codes.row(y), codes.row(y), [&](const Cost*) { ++emitted; });
+      EXPECT_EQ(emitted, two_passes ? (y == 3 ? 4 : 0) : y + 1);
+    }
+    EXPECT_EQ(matching.look_ahead_rows(), two_passes ? 3 : 0);
+    EXPECT_EQ(matching.look_ahead_pixels(), paths == kFourPaths ? 0 : 7);
+  }
+}
+
+TEST(matching, declares_what_its_circuit_needs) {
+  MatchingConfig config;
+  {
+    const Matching matching(config, 640, 480, 24);
+    // 24 + 255 needs 9 bits; 128 costs and a minimum for three paths of a row and for one pixel.
+    EXPECT_EQ(matching.storage_bits(), 9 * 129 * (3 * 640 + 1) + 24 * 127);
+    EXPECT_EQ(matching.external_storage_bits(), 0);
+    EXPECT_EQ(matching.cost_bits(), 11);  // 4 * 279
+  }
+  config.paths = kEightPaths;
+  const Matching matching(config, 64, 48, 24);
+  // The first pass sums five paths of at most 279: 11 bits.
+  EXPECT_EQ(matching.external_storage_bits(), 64 * 48 * (128 * 11 + 2 * 24));
+}
+
+TEST(matching, bad_configuration) {
+  const auto complain = [](auto change) {
+    MatchingConfig config;
+    change(config);
+    return complaint(config);
+  };
+  EXPECT_EQ(complaint(MatchingConfig{}), "");
+  EXPECT_EQ(complain([](auto& c) { c.parallelism = 0; }), "matching.parallelism = 0: must be within 1..256");
+  EXPECT_EQ(complain([](auto& c) { c.iterations = 257; }),
+            "matching.iterations = 257: must be within 1..256");
+  EXPECT_EQ(complain([](auto& c) { c.disparity_offset = -1; }),
+            "matching.disparity_offset = -1: must be within 0..255");
+  EXPECT_EQ(complain([](auto& c) { c.disparity_offset = 129; }),
+            "matching.disparity_offset + matching.iterations x matching.parallelism = 129 + 4 x 32 = 257: "
+            "must be at most 256");
+  EXPECT_EQ(complain([](auto& c) { c.p1 = -1; }), "matching.p1 = -1: must be within 0..255");
+  EXPECT_EQ(complain([](auto& c) { c.p2 = 256; }), "matching.p2 = 256: must be within 0..255");
+  EXPECT_EQ(complain([](auto& c) { c.p1 = 42; }), "matching.p1 = 42: must be below matching.p2 = 42");
+  EXPECT_EQ(complain([](auto& c) { c.paths = 0; }),
+            "matching.paths = 0x0: must name one to eight of w, nw, n, ne, e, sw, s, se");
+  EXPECT_EQ(complain([](auto& c) { c.paths = 0x100; }),
+            "matching.paths = 0x100: must name one to eight of w, nw, n, ne, e, sw, s, se");
+}
+
+}  // namespace
+}  // namespace parallax
