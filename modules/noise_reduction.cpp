@@ -58,6 +58,7 @@ void NoiseReduction::push(const Disparity* row, const RowSink<Disparity>& emit) 
 void NoiseReduction::mean_row(int y, Disparity* out) {
   std::fill(sums_.begin(), sums_.end(), 0);
   std::fill(counts_.begin(), counts_.end(), 0);
+  const int width = width_;  // a copy that the stores below cannot change: without it, no vector code
   const std::uint16_t* centre = values_.row(y);
   const auto max_difference = static_cast<std::uint16_t>(config_.max_difference);
   std::uint32_t* sums = sums_.data();
@@ -65,14 +66,14 @@ void NoiseReduction::mean_row(int y, Disparity* out) {
   for (int v = std::max(y - half_, 0); v <= std::min(y + half_, height_ - 1); ++v) {
     for (int dx = -half_; dx <= half_; ++dx) {
       const std::uint16_t* other = values_.row(v) + dx;
-      for (int x = 0; x < width_; ++x) {
+      for (int x = 0; x < width; ++x) {
         const bool counted = similar(centre[x], other[x], max_difference);
         sums[x] += counted ? other[x] : 0U;
         counts[x] = static_cast<std::uint16_t>(counts[x] + counted);
       }
     }
   }
-  for (int x = 0; x < width_; ++x) {
+  for (int x = 0; x < width; ++x) {
     if (!out[x].valid()) continue;
     const std::uint64_t dividend = std::uint64_t{2} * sums[x] + counts[x];
     out[x].value = static_cast<std::uint16_t>((dividend * reciprocals_[counts[x]]) >> 32);

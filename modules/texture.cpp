@@ -29,8 +29,9 @@ Texture::Texture(const TextureConfig& config, int width, int height)
 
 void Texture::push_image(const Gray* row, const RowSink<Disparity>& emit) {
   if (!config_.enabled) return;
+  const int width = width_;  // a copy that the stores below cannot change: without it, no vector code
   std::uint8_t* contrast = contrast_.row(image_row_);
-  for (int x = 1; x < width_; ++x) contrast[x] = static_cast<std::uint8_t>(std::abs(row[x] - row[x - 1]));
+  for (int x = 1; x < width; ++x) contrast[x] = static_cast<std::uint8_t>(std::abs(row[x] - row[x - 1]));
   ++image_row_;
   while (score_row_ < height_ && (image_row_ > score_row_ + half_ || image_row_ == height_)) {
     plain_rows_.push_back(score_row(score_row_++));
@@ -47,17 +48,18 @@ void Texture::push_disparity(const Disparity* row, const RowSink<Disparity>& emi
 
 Texture::Plain Texture::score_row(int y) {
   std::fill(column_sums_.begin(), column_sums_.end(), 0);
+  const int width = width_;
   std::uint32_t* columns = column_sums_.data() + half_;
   for (int v = y - half_; v <= y + half_; ++v) {
     const std::uint8_t* contrast = contrast_.row(std::clamp(v, 0, height_ - 1));
-    for (int x = 0; x < width_; ++x) columns[x] += contrast[x];
+    for (int x = 0; x < width; ++x) columns[x] += contrast[x];
   }
   const auto limit = static_cast<std::uint32_t>(config_.threshold * config_.window * (config_.window - 1));
   // The replicated columns outside of the image have no contrast: the zeros on both sides of column_sums_.
   std::uint32_t sum = 0;
   for (int x = 1 - half_; x < half_; ++x) sum += columns[x];
-  Plain plain(static_cast<std::size_t>(width_));
-  for (int x = 0; x < width_; ++x) {
+  Plain plain(static_cast<std::size_t>(width));
+  for (int x = 0; x < width; ++x) {
     sum += columns[x + half_];
     plain[static_cast<std::size_t>(x)] = kStepsPerGreyLevel * sum < limit;
     sum -= columns[x - half_ + 1];
