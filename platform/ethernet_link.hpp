@@ -21,9 +21,9 @@ struct LinkJob {
   std::function<void(const std::vector<std::uint8_t>& bytes)> sent;
 };
 
-/// Ethernet link: cuts the results into packets and sends them at the line rate. A packet leaves when its payload is
-/// there, the wire is free, and the host has taken the pixels before: the host's own rate is a limit beside the
-/// line's, carried over from frame to frame.
+/// Ethernet link: cuts the results into packets and sends them at the line rate. A packet leaves when its
+/// payload is there, the wire is free, and the host has taken the pixels before: the host's own rate is a
+/// limit beside the line's, carried over from frame to frame.
 class EthernetLink final : public sc_core::sc_module {
  public:
   StreamIn<std::uint8_t> in_bursts{"in_bursts"};

@@ -26,11 +26,13 @@ struct FrameTimes {
   sc_core::sc_time at_host;  ///< last bit on the wire; results_in_memory when the link is off
 };
 
-/// What comes out for one frame. Images are row-major and of the machine's size; empty for a timing-only frame.
+/// What comes out for one frame. Images are row-major and of the machine's size; empty for a timing-only
+/// frame.
 struct FrameResult {
   std::int64_t index = 0;
-  std::vector<Gray> left;              ///< rectified left image, as the host receives it
-  std::vector<Disparity> disparities;  ///< values as the host receives them, with the causes known to the model
+  std::vector<Gray> left;  ///< rectified left image, as the host receives it
+  std::vector<Disparity>
+      disparities;  ///< values as the host receives them, with the causes known to the model
 };
 
 }  // namespace parallax

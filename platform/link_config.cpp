@@ -21,7 +21,8 @@ void describe(Schema& schema, LinkConfig& config) {
       "Whether results are sent to a host. Off: they stay in the memory and the link limits nothing.",
       stated("paper, section Architecture: output through gigabit Ethernet"));
   schema.integer("link.output_buffers", config.output_buffers, {1, 64}, "frames",
-                 "Frames of results that the memory holds on their way to the host.", chosen("not published"));
+                 "Frames of results that the memory holds on their way to the host.",
+                 chosen("not published"));
   schema.integer("link.line_rate", config.line_rate, {1, 1'000'000'000'000}, "bit/s", "Bit rate of the wire.",
                  stated("paper, section Architecture: gigabit Ethernet"));
   schema.integer("link.packet_payload_bytes", config.packet_payload_bytes, {1, 65536}, "B",

@@ -83,7 +83,8 @@ Machine::Machine(const sc_core::sc_module_name& name, const MachineConfig& confi
                           engine_config(config.dma.camera).fifo()),
       camera_right_bursts_("camera_right_bursts", dataflow_, camera_clock_, camera_clock_,
                            engine_config(config.dma.camera).fifo()),
-      link_bursts_("link_bursts", dataflow_, link_clock_, link_clock_, engine_config(config.dma.link).fifo()) {
+      link_bursts_("link_bursts", dataflow_, link_clock_, link_clock_,
+                   engine_config(config.dma.link).fifo()) {
   left_sensor_.out_bursts(camera_left_bursts_);
   right_sensor_.out_bursts(camera_right_bursts_);
   dma_camera_left_.in_bursts(camera_left_bursts_);
@@ -102,7 +103,8 @@ Machine::Machine(const sc_core::sc_module_name& name, const MachineConfig& confi
   SC_THREAD(expose_frames);
 }
 
-// The map is there before the first frame; then a frame is exposed whenever a buffer is free and its time has come.
+// The map is there before the first frame; then a frame is exposed whenever a buffer is free and its time has
+// come.
 void Machine::expose_frames() {
   ::tlm::tlm_generic_payload map;
   std::vector<std::uint8_t> map_bytes = input_.map->bytes;
@@ -120,7 +122,8 @@ void Machine::expose_frames() {
     ++input_buffers_used_;
     if (config_.camera.frame_rate > 0) {
       const auto due = static_cast<double>(frame) / config_.camera.frame_rate;
-      camera_clock_.wait_until(Cycles(static_cast<std::int64_t>(due * static_cast<double>(config_.clocks.camera_hz))));
+      camera_clock_.wait_until(
+          Cycles(static_cast<std::int64_t>(due * static_cast<double>(config_.clocks.camera_hz))));
     }
     const StereoFrame images = input_.expose(frame);
     const bool values = images.left != nullptr;
@@ -168,7 +171,8 @@ void Machine::start_outputs() {
     ++output_buffers_used_;
     dma_output_.start({memory_map_.outputs[static_cast<std::size_t>(frame % buffers)],
                        equal_rows(input_.height, OutputPacking::row_bytes(input_.width)),
-                       values_[static_cast<std::size_t>(frame)], [this, frame] { results_in_memory(frame); }});
+                       values_[static_cast<std::size_t>(frame)],
+                       [this, frame] { results_in_memory(frame); }});
   }
 }
 
@@ -188,7 +192,8 @@ void Machine::results_in_memory(std::int64_t frame) {
     const std::uint64_t bytes = job.bytes();
     const bool values = job.values;
     dma_link_.start(std::move(job));
-    link_.start({bytes, values, [this, frame](const std::vector<std::uint8_t>& sent) { deliver(frame, sent); }});
+    link_.start(
+        {bytes, values, [this, frame](const std::vector<std::uint8_t>& sent) { deliver(frame, sent); }});
     return;
   }
   std::vector<std::uint8_t> bytes;
@@ -222,12 +227,14 @@ void Machine::deliver(std::int64_t frame, const std::vector<std::uint8_t>& bytes
     labelled_.pop_front();
     result.left.resize(result.disparities.size());
     for (std::size_t y = 0; y < static_cast<std::size_t>(input_.height); ++y) {
-      unpack_output(bytes.data() + y * row_bytes, input_.width, result.left.data() + y * width, values.data());
+      unpack_output(bytes.data() + y * row_bytes, input_.width, result.left.data() + y * width,
+                    values.data());
       for (std::size_t x = 0; x < width; ++x) {
         if (result.disparities[y * width + x].value != values[x]) {
-          SC_REPORT_ERROR("/parallax/machine/values",
-                          fmt::format("frame {}: the host's disparity at ({}, {}) is not the pipeline's", frame, x, y)
-                              .c_str());
+          SC_REPORT_ERROR(
+              "/parallax/machine/values",
+              fmt::format("frame {}: the host's disparity at ({}, {}) is not the pipeline's", frame, x, y)
+                  .c_str());
         }
       }
     }

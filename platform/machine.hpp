@@ -30,8 +30,9 @@ struct MachineInput {
   std::function<void(const FrameResult& result)> deliver;
 };
 
-/// The whole machine: two sensors, the memory with its ports, the pipeline, the link, and what hands frames from one
-/// to the next. Several frames are in flight: one is read out while another is processed and a third is sent.
+/// The whole machine: two sensors, the memory with its ports, the pipeline, the link, and what hands frames
+/// from one to the next. Several frames are in flight: one is read out while another is processed and a third
+/// is sent.
 ///
 /// Ports of the memory, in the order of binding: camera_left, camera_right, left, right, map, output, link.
 class Machine final : public sc_core::sc_module {
@@ -89,11 +90,11 @@ class Machine final : public sc_core::sc_module {
   Stream<std::uint8_t> link_bursts_;
 
   std::vector<FrameTimes> times_;
-  std::vector<bool> values_;                // whether a frame carries images
-  std::int64_t input_buffers_used_ = 0;     // frames from exposure until both images are read
+  std::vector<bool> values_;             // whether a frame carries images
+  std::int64_t input_buffers_used_ = 0;  // frames from exposure until both images are read
   sc_core::sc_event input_buffer_free_;
-  std::int64_t to_output_ = 0;              // next frame that gets an output buffer
-  std::int64_t processing_ = 0;             // frames handed to the pipeline
+  std::int64_t to_output_ = 0;   // next frame that gets an output buffer
+  std::int64_t processing_ = 0;  // frames handed to the pipeline
   std::int64_t output_buffers_used_ = 0;
   std::int64_t delivered_ = 0;
   std::deque<std::vector<Disparity>> labelled_;  // frames on their way to the host, as the pipeline made them

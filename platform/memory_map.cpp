@@ -25,11 +25,12 @@ MemoryMap lay_out_memory(const MachineConfig& config, int width, int height, con
   layout.map = place(map.bytes.size());
   for (std::uint32_t i = 0; i < config.link.output_buffers; ++i) layout.outputs.push_back(place(result));
   if (layout.end > static_cast<std::uint64_t>(config.memory.size_bytes)) {
-    throw UserError(fmt::format(
-        "memory.size_bytes = {} is too small: {} frame buffers of 2 x {} B, a rectification map of {} B and {} output "
-        "buffers of {} B need {} B",
-        config.memory.size_bytes, config.camera.frame_buffers, image, map.bytes.size(), config.link.output_buffers,
-        result, layout.end));
+    throw UserError(
+        fmt::format("memory.size_bytes = {} is too small: {} frame buffers of 2 x {} B, a rectification map "
+                    "of {} B and {} output "
+                    "buffers of {} B need {} B",
+                    config.memory.size_bytes, config.camera.frame_buffers, image, map.bytes.size(),
+                    config.link.output_buffers, result, layout.end));
   }
   return layout;
 }

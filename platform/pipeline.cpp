@@ -50,7 +50,8 @@ Pipeline::Pipeline(const sc_core::sc_module_name& name, const MachineConfig& con
       unpack_left_("unpack_left", image_bursts(context, config.dma.left), context.clock, context.dataflow),
       unpack_right_("unpack_right", image_bursts(context, config.dma.right), context.clock, context.dataflow),
       unpack_map_("unpack_map", map_bursts(map, config.dma.map), context.clock, context.dataflow),
-      map_decoder_("map_decoder", map, Bytes(config.dma.map.data_bits / 8), config.timing.map_decoder, context),
+      map_decoder_("map_decoder", map, Bytes(config.dma.map.data_bits / 8), config.timing.map_decoder,
+                   context),
       rectification_("rectification", config.rectification, config.timing.rectification, context),
       census_("census", config.census, config.timing.census, context),
       matching_("matching", config.matching, config.census.code_bits(), config.timing.matching, context),
@@ -59,17 +60,20 @@ Pipeline::Pipeline(const sc_core::sc_module_name& name, const MachineConfig& con
       uniqueness_("uniqueness", config.uniqueness, config.matching.range(),
                   static_cast<std::uint32_t>(config.matching.iterations), config.timing.uniqueness, context),
       consistency_("consistency", config.consistency, config.matching.range(),
-                   static_cast<std::uint32_t>(config.matching.iterations), config.timing.consistency, context),
+                   static_cast<std::uint32_t>(config.matching.iterations), config.timing.consistency,
+                   context),
       texture_("texture", config.texture, config.timing.texture, context),
       speckle_("speckle", config.speckle, config.timing.speckle, context),
-      gap_interpolation_("gap_interpolation", config.gap_interpolation, config.timing.gap_interpolation, context),
+      gap_interpolation_("gap_interpolation", config.gap_interpolation, config.timing.gap_interpolation,
+                         context),
       noise_reduction_("noise_reduction", config.noise_reduction, config.timing.noise_reduction, context),
       output_packing_("output_packing", Bytes(config.dma.output.burst_bytes), context),
       left_bursts_("left_bursts", context.dataflow, context.clock, context.clock,
                    engine_config(config.dma.left).fifo()),
       right_bursts_("right_bursts", context.dataflow, context.clock, context.clock,
                     engine_config(config.dma.right).fifo()),
-      map_bursts_("map_bursts", context.dataflow, context.clock, context.clock, engine_config(config.dma.map).fifo()),
+      map_bursts_("map_bursts", context.dataflow, context.clock, context.clock,
+                  engine_config(config.dma.map).fifo()),
       output_bursts_("output_bursts", context.dataflow, context.clock, context.clock,
                      engine_config(config.dma.output).fifo()) {
   const PipelineTiming& time = config.timing;
@@ -78,17 +82,20 @@ Pipeline::Pipeline(const sc_core::sc_module_name& name, const MachineConfig& con
   const std::int64_t group_bits = config.matching.parallelism * cost_bits(config);
   const std::int64_t offset_bits = 4 * config.rectification.range.offset_bits();
 
-  // Paths that fork and meet again: the shorter one must hold what the longer one holds back, that is its look-ahead
-  // in tokens, and what passes during its pipeline latency at one token a cycle. A FIFO adds two cycles.
+  // Paths that fork and meet again: the shorter one must hold what the longer one holds back, that is its
+  // look-ahead in tokens, and what passes during its pipeline latency at one token a cycle. A FIFO adds two
+  // cycles.
   constexpr std::uint64_t kFifoCycles = 2;
   const std::uint64_t to_uniqueness = groups + time.subpixel.latency + kFifoCycles;
   const std::uint64_t to_consistency = to_uniqueness + groups + time.uniqueness.latency + kFifoCycles;
   const std::uint64_t to_texture = census_.look_ahead() + matching_.look_ahead() + consistency_.look_ahead() +
                                    time.census.latency + time.matching.latency + time.subpixel.latency +
-                                   time.uniqueness.latency + time.consistency.latency + 6 * kFifoCycles + groups;
+                                   time.uniqueness.latency + time.consistency.latency + 6 * kFifoCycles +
+                                   groups;
   const std::uint64_t to_output = to_texture + speckle_.look_ahead() + gap_interpolation_.look_ahead() +
-                                  noise_reduction_.look_ahead() + time.texture.latency + time.speckle.latency +
-                                  time.gap_interpolation.latency + time.noise_reduction.latency + 4 * kFifoCycles;
+                                  noise_reduction_.look_ahead() + time.texture.latency +
+                                  time.speckle.latency + time.gap_interpolation.latency +
+                                  time.noise_reduction.latency + 4 * kFifoCycles;
 
   const auto connect = [](auto& out, auto& in, auto& between) {
     out(between);
@@ -99,25 +106,31 @@ Pipeline::Pipeline(const sc_core::sc_module_name& name, const MachineConfig& con
   unpack_map_.in_bursts(map_bursts_);
   connect(unpack_left_.out_tokens, rectification_.in_left, stream<Gray>("left_pixels", kGrayBits));
   connect(unpack_right_.out_tokens, rectification_.in_right, stream<Gray>("right_pixels", kGrayBits));
-  connect(unpack_map_.out_tokens, map_decoder_.in_words, stream<std::uint8_t>("map_words", config.dma.map.data_bits));
+  connect(unpack_map_.out_tokens, map_decoder_.in_words,
+          stream<std::uint8_t>("map_words", config.dma.map.data_bits));
   connect(map_decoder_.out_map, rectification_.in_map, stream<OffsetPair>("map_entries", offset_bits));
   connect(rectification_.out_left, census_.in_left, stream<Gray>("left_rectified", kGrayBits));
   connect(rectification_.out_right, census_.in_right, stream<Gray>("right_rectified", kGrayBits));
   connect(rectification_.out_left, texture_.in_left, stream<Gray>("left_texture", kGrayBits, to_texture));
-  connect(rectification_.out_left, output_packing_.in_left, stream<Gray>("left_output", kGrayBits, to_output));
+  connect(rectification_.out_left, output_packing_.in_left,
+          stream<Gray>("left_output", kGrayBits, to_output));
   connect(census_.out_left, matching_.in_left, stream<CensusCode>("left_codes", code_bits / 2));
   connect(census_.out_right, matching_.in_right, stream<CensusCode>("right_codes", code_bits / 2));
   connect(matching_.out_costs, subpixel_.in_costs, stream<Cost>("costs_subpixel", group_bits));
-  connect(matching_.out_costs, uniqueness_.in_costs, stream<Cost>("costs_uniqueness", group_bits, to_uniqueness));
-  connect(matching_.out_costs, consistency_.in_costs, stream<Cost>("costs_consistency", group_bits, to_consistency));
+  connect(matching_.out_costs, uniqueness_.in_costs,
+          stream<Cost>("costs_uniqueness", group_bits, to_uniqueness));
+  connect(matching_.out_costs, consistency_.in_costs,
+          stream<Cost>("costs_consistency", group_bits, to_consistency));
   connect(subpixel_.out_disparity, uniqueness_.in_disparity, stream<Disparity>("winners", kDisparityBits));
   connect(uniqueness_.out_disparity, consistency_.in_disparity, stream<Disparity>("unique", kDisparityBits));
   connect(consistency_.out_disparity, texture_.in_disparity, stream<Disparity>("consistent", kDisparityBits));
   connect(texture_.out_disparity, speckle_.in_disparity, stream<Disparity>("textured", kDisparityBits));
-  connect(speckle_.out_disparity, gap_interpolation_.in_disparity, stream<Disparity>("despeckled", kDisparityBits));
+  connect(speckle_.out_disparity, gap_interpolation_.in_disparity,
+          stream<Disparity>("despeckled", kDisparityBits));
   connect(gap_interpolation_.out_disparity, noise_reduction_.in_disparity,
           stream<Disparity>("interpolated", kDisparityBits));
-  connect(noise_reduction_.out_disparity, output_packing_.in_disparity, stream<Disparity>("smoothed", kDisparityBits));
+  connect(noise_reduction_.out_disparity, output_packing_.in_disparity,
+          stream<Disparity>("smoothed", kDisparityBits));
   output_packing_.out_bursts(output_bursts_);
 }
 

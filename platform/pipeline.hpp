@@ -31,14 +31,15 @@ struct StageInfo {
   Bits storage;  ///< line buffers and the like, beside the FIFOs
 };
 
-/// The stereo pipeline, from the bursts of the three input ports to those of the output port: the stages, and the
-/// streams between them. This is the one place that knows which stage follows which.
+/// The stereo pipeline, from the bursts of the three input ports to those of the output port: the stages, and
+/// the streams between them. This is the one place that knows which stage follows which.
 class Pipeline final : public sc_core::sc_module {
  public:
   Pipeline(const sc_core::sc_module_name& name, const MachineConfig& config, const EncodedMap& map,
            const StageContext& context);
 
-  /// Binds the engines that bring the left image, the right image and the map, and the one that takes the results.
+  /// Binds the engines that bring the left image, the right image and the map, and the one that takes the
+  /// results.
   void bind(DmaReader& left, DmaReader& right, DmaReader& map, DmaWriter& output);
 
   OutputPackingStage& output() { return output_packing_; }

@@ -44,7 +44,7 @@ Scene::Scene(const SceneConfig& config)
       left_(calibration_.left, {0, 0, 0}, config_),
       right_(calibration_.right, {scene_frame(config_).baseline, 0, 0}, config_) {}
 
-SceneImages Scene::render(int frame) const {
+StereoImages Scene::render(int frame) const {
   const std::vector<SceneSurface> surfaces = place_surfaces(config_, frame);
   const auto noise = [&](std::uint64_t camera) {
     return SensorNoise{scene_hash(scene_hash(config_.seed, camera), static_cast<std::uint64_t>(frame)),

@@ -7,14 +7,9 @@
 #include "platform/scene_calibration.hpp"
 #include "platform/scene_config.hpp"
 #include "platform/scene_view.hpp"
+#include "platform/stereo_images.hpp"
 
 namespace parallax {
-
-/// What the two cameras see: CV_8UC1, raw (distorted and not rectified, unless the distortion is off).
-struct SceneImages {
-  cv::Mat left;
-  cv::Mat right;
-};
 
 /// In the rectified left image, by casting the ray of each pixel's centre.
 struct SceneTruth {
@@ -33,8 +28,9 @@ class Scene {
   explicit Scene(const SceneConfig& config);
 
   const SceneCalibration& calibration() const { return calibration_; }
-  /// `frame` counts from 0 and can be any number: the motion repeats every 128 frames, the noise does not.
-  SceneImages render(int frame) const;
+  /// The raw images: distorted and not rectified, unless the distortion is off. `frame` can be any number:
+  /// the motion repeats every 128 frames, the noise does not.
+  StereoImages render(int frame) const;
   SceneTruth truth(int frame) const;
 
  private:

@@ -24,8 +24,9 @@ struct SensorConfig {
 /// One image as a sensor sees it; without pixels it has a size and a time only.
 using SensorImage = std::shared_ptr<const std::vector<Gray>>;
 
-/// One sensor of the stereo camera with its cable: reads an exposed image out in raster order, a row every `row`
-/// cycles, 8 bit a pixel, and hands it on in bursts. It cannot wait: a burst that finds the FIFO full is late.
+/// One sensor of the stereo camera with its cable: reads an exposed image out in raster order, a row every
+/// `row` cycles, 8 bit a pixel, and hands it on in bursts. It cannot wait: a burst that finds the FIFO full
+/// is late.
 class Sensor final : public sc_core::sc_module {
  public:
   StreamOut<std::uint8_t> out_bursts{"out_bursts"};

@@ -42,8 +42,8 @@ Maps exact_maps(const SceneCalibration& c, bool left) {
   return maps;
 }
 
-SceneImages rectify(const Scene& scene, const SceneImages& raw) {
-  SceneImages result;
+StereoImages rectify(const Scene& scene, const StereoImages& raw) {
+  StereoImages result;
   const Maps left = exact_maps(scene.calibration(), true);
   const Maps right = exact_maps(scene.calibration(), false);
   cv::remap(raw.left, result.left, left.x, left.y, cv::INTER_LINEAR, cv::BORDER_REPLICATE);
@@ -52,7 +52,7 @@ SceneImages rectify(const Scene& scene, const SceneImages& raw) {
 }
 
 /// Absolute differences between the left image and the right one at the ground truth's place, sorted.
-std::vector<double> match_errors(const SceneImages& rectified, const SceneTruth& truth) {
+std::vector<double> match_errors(const StereoImages& rectified, const SceneTruth& truth) {
   std::vector<double> errors;
   for (int y = 0; y < truth.mask.rows; ++y) {
     for (int x = 0; x < truth.mask.cols; ++x) {
@@ -94,8 +94,8 @@ TEST(Scene, SameConfigurationGivesTheSameBytes) {
   config.width = 160;
   config.height = 120;
   config.disparities = 32;
-  const SceneImages a = Scene(config).render(3);
-  const SceneImages b = Scene(config).render(3);
+  const StereoImages a = Scene(config).render(3);
+  const StereoImages b = Scene(config).render(3);
   EXPECT_TRUE(same(a.left, b.left));
   EXPECT_TRUE(same(a.right, b.right));
   EXPECT_EQ(checksum(a.left), 12936069081736555105u) << "the picture of seed 1 has changed";
@@ -112,7 +112,7 @@ TEST(Scene, EverySizeRendersAndItsRectificationFitsTheWindow) {
     config.width = size.width;
     config.height = size.height;
     const Scene scene(config);
-    const SceneImages raw = scene.render(0);
+    const StereoImages raw = scene.render(0);
     EXPECT_EQ(raw.left.size(), size);
     EXPECT_EQ(raw.right.size(), size);
     EXPECT_EQ(raw.left.type(), CV_8UC1);
@@ -250,7 +250,7 @@ TEST(Scene, RectificationUndoesTheLens) {
 TEST(Scene, StereoSgbmFindsTheTruth) {
   SceneConfig config;
   const Scene scene(config);
-  const SceneImages images = rectify(scene, scene.render(0));
+  const StereoImages images = rectify(scene, scene.render(0));
   const SceneTruth truth = scene.truth(0);
   const auto matcher = cv::StereoSGBM::create(0, config.disparities, 5, 8 * 25, 32 * 25, 1, 31, 5, 0, 0,
                                               cv::StereoSGBM::MODE_SGBM);
@@ -369,10 +369,10 @@ TEST(Scene, FramesMoveUnlessToldNotTo) {
 
 TEST(Scene, NoiseHasTheVarianceAskedFor) {
   SceneConfig config = quiet(320, 240);
-  const SceneImages clean = Scene(config).render(0);
+  const StereoImages clean = Scene(config).render(0);
   config.read_noise = 3;
   config.shot_noise = 0.05;
-  const SceneImages noisy = Scene(config).render(0);
+  const StereoImages noisy = Scene(config).render(0);
   double sum = 0, squares = 0, expected = 0;
   int count = 0;
   for (int y = 0; y < config.height; ++y) {

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <stdexcept>
+#include <vector>
+
+#include "modules/pixel.hpp"
+
+namespace parallax {
+
+/// A disparity map that belongs to somebody else: rows from top to bottom without gaps.
+struct DisparityView {
+  DisparityView(const std::vector<Disparity>& map, int map_width, int map_height)
+      : pixels(map.data()), width(map_width), height(map_height) {
+    if (width < 1 || height < 1 ||
+        map.size() != static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {
+      throw std::invalid_argument("a disparity map's size is not that of its pixels");
+    }
+  }
+
+  const Disparity* row(int y) const { return pixels + static_cast<std::ptrdiff_t>(y) * width; }
+
+  const Disparity* pixels;
+  int width;
+  int height;
+};
+
+}  // namespace parallax

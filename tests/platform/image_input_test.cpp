@@ -1,0 +1,388 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "platform/image_input.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "platform/image_padding.hpp"
+#include "platform/scene_hash.hpp"
+#include "platform/stderr_capture.hpp"
+#include "temporary_folder.hpp"
+#include "tlm/error.hpp"
+
+namespace parallax {
+namespace {
+
+namespace fs = std::filesystem;
+
+cv::Mat random_image(int width, int height, int type, int highest, std::uint64_t seed = 1) {
+  cv::Mat image(height, width, CV_MAKETYPE(CV_16U, CV_MAT_CN(type)));
+  for (int y = 0; y < height; ++y) {
+    for (int i = 0; i < width * image.channels(); ++i) {
+      image.ptr<std::uint16_t>(y)[i] = static_cast<std::uint16_t>(
+          scene_hash(seed, static_cast<std::uint64_t>(y * 100000 + i)) % static_cast<unsigned>(highest + 1));
+    }
+  }
+  image.at<std::uint16_t>(0, 0) = static_cast<std::uint16_t>(highest);
+  cv::Mat result;
+  image.convertTo(result, type);
+  return result;
+}
+
+cv::Mat grey(int width, int height, std::uint64_t seed = 1) {
+  return random_image(width, height, CV_8UC1, 255, seed);
+}
+
+void save(const fs::path& path, const cv::Mat& image) {
+  fs::create_directories(path.parent_path());
+  ASSERT_TRUE(cv::imwrite(path.string(), image)) << path;
+}
+
+void save_bytes(const fs::path& path, const std::string& bytes) {
+  std::ofstream(path, std::ios::binary) << bytes;
+}
+
+std::string bytes_of(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// Loads all frames of the pair `left`, `right` and returns the error, checking that nothing else was
+/// printed.
+std::string load_error(const TemporaryFolder& folder, const std::string& left = "left.png",
+                       const std::string& right = "right.png") {
+  const StderrCapture capture;
+  const std::string line = error_line<UserError>([&] {
+    ImageInput({{folder / left, folder / right}}, {}, {});
+  });
+  EXPECT_EQ(capture.text(), "");
+  EXPECT_EQ(line.find('\n'), std::string::npos);
+  return line;
+}
+
+TEST(ImageInput, LoadsAPairAsItIs) {
+  const TemporaryFolder folder;
+  const cv::Mat left = grey(40, 30, 1), right = grey(40, 30, 2);
+  save(folder / "left.png", left);
+  save(folder / "right.png", right);
+  std::vector<std::string> notices;
+  ImageInput input({{folder / "left.png", folder / "right.png"}}, {},
+                   [&](const std::string& n) { notices.push_back(n); });
+  EXPECT_EQ(input.frames(), 1u);
+  EXPECT_EQ(input.width(), 40);
+  EXPECT_EQ(input.height(), 30);
+  const StereoImages images = input.load(0);
+  EXPECT_EQ(cv::norm(images.left, left, cv::NORM_INF), 0);
+  EXPECT_EQ(cv::norm(images.right, right, cv::NORM_INF), 0);
+  EXPECT_TRUE(notices.empty());
+}
+
+TEST(ImageInput, MissingFile) {
+  const TemporaryFolder folder;
+  save(folder / "left.png", grey(8, 8));
+  EXPECT_EQ(load_error(folder), "image " + (folder / "right.png").string() + " does not exist");
+  EXPECT_EQ(load_error(folder, "none.png"), "image " + (folder / "none.png").string() + " does not exist");
+  fs::create_directory(folder / "right.png");
+  EXPECT_EQ(load_error(folder), (folder / "right.png").string() + " is a folder, expected an image");
+}
+
+TEST(ImageInput, LaterFrameMissingIsSaidBeforeAnyWork) {
+  const TemporaryFolder folder;
+  save(folder / "left.png", grey(8, 8));
+  const fs::path left = folder / "left.png";
+  EXPECT_EQ(error_line<UserError>([&] {
+              ImageInput({{left, left}, {left, folder / "x.png"}}, {}, {});
+            }),
+            "image " + (folder / "x.png").string() + " does not exist");
+  EXPECT_EQ(error_line<UserError>([&] { ImageInput({}, {}, {}); }), "there is no image pair to read");
+}
+
+TEST(ImageInput, DamagedFiles) {
+  const TemporaryFolder folder;
+  save(folder / "right.png", grey(200, 200));
+  save(folder / "photo.jpg", grey(200, 200));
+  const auto expected = [&](const char* name) {
+    return "cannot read image " + (folder / name).string() +
+           ": it is damaged, or not a PNG, JPEG, TIFF, BMP, PNM or WebP file";
+  };
+  save_bytes(folder / "empty.png", "");
+  EXPECT_EQ(load_error(folder, "empty.png"), expected("empty.png"));
+  save_bytes(folder / "text.png", "no image at all\n");
+  EXPECT_EQ(load_error(folder, "text.png"), expected("text.png"));
+
+  const std::string png = bytes_of(folder / "right.png");
+  save_bytes(folder / "cut.png", png.substr(0, png.size() / 2));
+  EXPECT_EQ(load_error(folder, "cut.png"), expected("cut.png"));
+  save_bytes(folder / "header.png", png.substr(0, 20));
+  EXPECT_EQ(load_error(folder, "header.png"), expected("header.png"));
+  std::string flipped = png;
+  flipped[flipped.size() / 2] = static_cast<char>(flipped[flipped.size() / 2] ^ 0x55);
+  save_bytes(folder / "flipped.png", flipped);
+  EXPECT_EQ(load_error(folder, "flipped.png"), expected("flipped.png"));
+
+  const std::string jpg = bytes_of(folder / "photo.jpg");
+  save_bytes(folder / "cut.jpg", jpg.substr(0, jpg.size() / 2));
+  EXPECT_EQ(load_error(folder, "cut.jpg", "photo.jpg"), expected("cut.jpg"));
+  EXPECT_EQ(load_error(folder, "photo.jpg"), "no error");
+
+  save(folder / "whole.pgm", grey(200, 200));
+  const std::string pgm = bytes_of(folder / "whole.pgm");
+  save_bytes(folder / "cut.pgm", pgm.substr(0, pgm.size() / 2));
+  EXPECT_EQ(load_error(folder, "cut.pgm"), expected("cut.pgm"));
+}
+
+TEST(ImageInput, FloatingPointImage) {
+  const TemporaryFolder folder;
+  save(folder / "left.tiff", cv::Mat(8, 8, CV_32FC1, cv::Scalar(0.5)));
+  save(folder / "right.png", grey(8, 8));
+  EXPECT_EQ(load_error(folder, "left.tiff"),
+            "image " + (folder / "left.tiff").string() +
+                " has floating-point values, expected unsigned integers of 8 or 16 bits");
+}
+
+TEST(ImageInput, SizesDiffer) {
+  const TemporaryFolder folder;
+  save(folder / "left.png", grey(40, 30));
+  save(folder / "right.png", grey(41, 30));
+  EXPECT_EQ(load_error(folder), "the left image " + (folder / "left.png").string() +
+                                    " is 40x30, the right image " + (folder / "right.png").string() +
+                                    " is 41x30; both must have one size");
+}
+
+TEST(ImageInput, SizeChangesInTheSequence) {
+  const TemporaryFolder folder;
+  save(folder / "a.png", grey(40, 30));
+  save(folder / "b.png", grey(40, 32));
+  const fs::path a = folder / "a.png", b = folder / "b.png";
+  ImageInput input({{a, a}, {b, b}}, {}, {});
+  EXPECT_EQ(
+      error_line<UserError>([&] { input.load(1); }),
+      "image " + b.string() + " is 40x32, but the sequence began with 40x30; all frames must have one size");
+}
+
+TEST(ImageInput, TooLarge) {
+  const TemporaryFolder folder;
+  save(folder / "left.png", cv::Mat(4, 1857, CV_8UC1, cv::Scalar(1)));
+  save(folder / "right.png", cv::Mat(4, 1857, CV_8UC1, cv::Scalar(1)));
+  EXPECT_EQ(load_error(folder),
+            "image " + (folder / "left.png").string() + " is 1857x4, larger than the largest size 1856x1856");
+  EXPECT_EQ(error_line<UserError>([&] {
+              ImageInput({{folder / "left.png", folder / "right.png"}}, {1857, 4}, {});
+            }),
+            "no error");
+}
+
+TEST(ImageInput, ColourBecomesMonoAndIsSaidOnce) {
+  const TemporaryFolder folder;
+  const cv::Mat colour = random_image(40, 30, CV_8UC3, 255);
+  const cv::Mat clear = random_image(40, 30, CV_8UC4, 255);
+  save(folder / "left.png", colour);
+  save(folder / "right.png", clear);
+  std::vector<std::string> notices;
+  const ImagePair pair{folder / "left.png", folder / "right.png"};
+  ImageInput input({pair, pair}, {}, [&](const std::string& n) { notices.push_back(n); });
+  input.load(1);
+  const StereoImages images = input.load(0);
+  EXPECT_EQ(notices, (std::vector<std::string>{
+                         "colour images (left.png) are converted to mono: 0.299 R + 0.587 G + 0.114 B"}));
+  for (int y = 0; y < 30; ++y) {
+    for (int x = 0; x < 40; ++x) {
+      const auto p = colour.at<cv::Vec3b>(y, x);
+      ASSERT_NEAR(images.left.at<std::uint8_t>(y, x), 0.114 * p[0] + 0.587 * p[1] + 0.299 * p[2], 0.51);
+      const auto q = clear.at<cv::Vec4b>(y, x);
+      ASSERT_NEAR(images.right.at<std::uint8_t>(y, x), 0.114 * q[0] + 0.587 * q[1] + 0.299 * q[2], 0.51);
+    }
+  }
+}
+
+TEST(ImageInput, TwelveBitsInSixteen) {
+  const TemporaryFolder folder;
+  const cv::Mat left = random_image(20, 10, CV_16UC1, 4095, 1),
+                right = random_image(20, 10, CV_16UC1, 3000, 2);
+  save(folder / "l.png", left);
+  save(folder / "r.png", right);
+  save(folder / "bright.png", random_image(20, 10, CV_16UC1, 5000));
+  std::vector<std::string> notices;
+  ImageInput input({{folder / "l.png", folder / "r.png"}, {folder / "bright.png", folder / "r.png"}}, {},
+                   [&](const std::string& n) { notices.push_back(n); });
+  const StereoImages images = input.load(0);
+  for (int y = 0; y < 10; ++y) {
+    for (int x = 0; x < 20; ++x) {
+      ASSERT_EQ(images.left.at<std::uint8_t>(y, x), left.at<std::uint16_t>(y, x) / 16);
+      ASSERT_EQ(images.right.at<std::uint8_t>(y, x), right.at<std::uint16_t>(y, x) / 16);
+    }
+  }
+  EXPECT_EQ(notices, (std::vector<std::string>{
+                         "16-bit images: the largest value of the first pair is 4095, so they are "
+                         "taken as 12-bit and the lower 4 bits are dropped"}));
+  const std::string line = error_line<UserError>([&] { input.load(1); });
+  EXPECT_EQ(line.rfind("image " + (folder / "bright.png").string() + " holds the value ", 0), 0u) << line;
+  EXPECT_NE(line.find(", but the sequence began with 12-bit values (at most 4095)"), std::string::npos)
+      << line;
+}
+
+TEST(ImageInput, FullSixteenBits) {
+  const TemporaryFolder folder;
+  const cv::Mat left = random_image(20, 10, CV_16UC1, 65535), right = grey(20, 10);
+  save(folder / "l.png", left);
+  save(folder / "r.png", right);
+  std::vector<std::string> notices;
+  ImageInput input({{folder / "l.png", folder / "r.png"}}, {},
+                   [&](const std::string& n) { notices.push_back(n); });
+  const StereoImages images = input.load(0);
+  for (int x = 0; x < 20; ++x) {
+    EXPECT_EQ(images.left.at<std::uint8_t>(3, x), left.at<std::uint16_t>(3, x) / 256);
+  }
+  EXPECT_EQ(cv::norm(images.right, right, cv::NORM_INF), 0);
+  EXPECT_EQ(notices, (std::vector<std::string>{
+                         "16-bit images: the largest value of the first pair is 65535, so they are "
+                         "taken as 16-bit and the lower 8 bits are dropped"}));
+}
+
+TEST(ImagePairs, NaturalOrder) {
+  EXPECT_TRUE(natural_less("left_9.png", "left_10.png"));
+  EXPECT_FALSE(natural_less("left_10.png", "left_9.png"));
+  EXPECT_TRUE(natural_less("left_009.png", "left_10.png"));
+  EXPECT_TRUE(natural_less("a", "a1"));
+  EXPECT_TRUE(natural_less("a2b1", "a2b2"));
+  EXPECT_FALSE(natural_less("a", "a"));
+  EXPECT_NE(natural_less("a1", "a01"), natural_less("a01", "a1"));
+}
+
+struct FolderCase {
+  const char* what;
+  std::vector<std::string> files;
+  std::vector<std::pair<std::string, std::string>> pairs;
+};
+
+TEST(ImagePairs, FoldersAreRecognised) {
+  const FolderCase cases[] = {
+      {"single", {"left.png", "right.png", "disp_gt.png", "mask_nocc.png"}, {{"left.png", "right.png"}}},
+      {"numbered",
+       {"left_10.png", "right_10.png", "left_9.png", "right_9.png"},
+       {{"left_9.png", "right_9.png"}, {"left_10.png", "right_10.png"}}},
+      {"camel", {"Left01.jpg", "Right01.jpg"}, {{"Left01.jpg", "Right01.jpg"}}},
+      {"word at the end", {"a_left.png", "a_right.png"}, {{"a_left.png", "a_right.png"}}},
+      {"letter",
+       {"7_l.png", "7_r.png", "8_L.png", "8_R.png"},
+       {{"7_l.png", "7_r.png"}, {"8_L.png", "8_R.png"}}},
+      {"capital", {"aloeL.jpg", "aloeR.jpg", "aloeGT.png"}, {{"aloeL.jpg", "aloeR.jpg"}}},
+      {"middlebury", {"im0.png", "im1.png", "im10.png"}, {{"im0.png", "im1.png"}}},
+      {"first rule wins", {"left.png", "right.png", "disp_l.png"}, {{"left.png", "right.png"}}},
+      {"subfolders",
+       {"left/2.png", "right/2.png", "left/1.png", "right/1.png"},
+       {{"left/1.png", "right/1.png"}, {"left/2.png", "right/2.png"}}},
+      {"kitti", {"image_0/000.png", "image_1/000.png"}, {{"image_0/000.png", "image_1/000.png"}}},
+      {"half written", {"left.png", "right.png", ".left_2.png"}, {{"left.png", "right.png"}}},
+  };
+  for (const FolderCase& c : cases) {
+    SCOPED_TRACE(c.what);
+    const TemporaryFolder folder;
+    for (const std::string& file : c.files) {
+      fs::create_directories((folder / file).parent_path());
+      save_bytes(folder / file, "x");
+    }
+    const std::vector<ImagePair> found = find_image_pairs(folder.path());
+    ASSERT_EQ(found.size(), c.pairs.size());
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      EXPECT_EQ(found[i].left, folder / c.pairs[i].first);
+      EXPECT_EQ(found[i].right, folder / c.pairs[i].second);
+    }
+  }
+}
+
+TEST(ImagePairs, FolderErrors) {
+  const auto error = [](const std::vector<std::string>& files) {
+    const TemporaryFolder folder;
+    for (const std::string& file : files) {
+      fs::create_directories((folder / file).parent_path());
+      save_bytes(folder / file, "x");
+    }
+    std::string line = error_line<UserError>([&] { find_image_pairs(folder.path()); });
+    const std::string name = folder.path().string();
+    EXPECT_EQ(line.rfind(name, 0), 0u) << line;
+    return line.substr(name.size());
+  };
+  const std::string none =
+      " holds no stereo pair; expected left_*.png and right_*.png, *_l and *_r, or subfolders left and right";
+  EXPECT_EQ(error({}), none);
+  EXPECT_EQ(error({"photo.png", "left.txt", "right.txt"}), none);
+  EXPECT_EQ(error({"left_1.png", "right_1.png", "left_2.png"}),
+            ": the left image left_2.png has no partner right_2.png");
+  EXPECT_EQ(error({"left_1.png", "right_1.png", "right_2.png"}),
+            ": the right image right_2.png has no partner left_2.png");
+  EXPECT_EQ(error({"left/1.png", "left/2.png", "right/1.png"}),
+            ": the left image left/2.png has no partner right/2.png");
+  EXPECT_EQ(error({"left/1.png", "right/1.png", "right/2.png"}),
+            ": the right image right/2.png has no partner left/2.png");
+  EXPECT_EQ(error_line<UserError>([] { find_image_pairs("/no/such/place"); }),
+            "/no/such/place does not exist; expected a folder or a list of image pairs");
+}
+
+TEST(ImagePairs, ListFile) {
+  const TemporaryFolder folder;
+  for (const char* name : {"a.png", "b.png", "c d.png"}) {
+    save_bytes(folder / name, "x");
+  }
+  save_bytes(folder / "list.txt", "# left right\n\na.png b.png\r\n  b.png\t\"c d.png\"  # the last\n" +
+                                      (folder / "a.png").string() + " a.png");
+  const std::vector<ImagePair> pairs = find_image_pairs(folder / "list.txt");
+  ASSERT_EQ(pairs.size(), 3u);
+  EXPECT_EQ(pairs[0].left, folder / "a.png");
+  EXPECT_EQ(pairs[0].right, folder / "b.png");
+  EXPECT_EQ(pairs[1].right, folder / "c d.png");
+  EXPECT_EQ(pairs[2].left, folder / "a.png");
+}
+
+TEST(ImagePairs, ListErrors) {
+  const TemporaryFolder folder;
+  save_bytes(folder / "a.png", "x");
+  const std::string list = (folder / "list.txt").string();
+  const auto error = [&](const std::string& text) {
+    save_bytes(list, text);
+    return error_line<UserError>([&] { find_image_pairs(list); });
+  };
+  EXPECT_EQ(error("a.png a.png\na.png\n"), list + ":2: 1 path in this line, expected two: left right");
+  EXPECT_EQ(error("a.png a.png a.png"), list + ":1: 3 paths in this line, expected two: left right");
+  EXPECT_EQ(error("\na.png b.png"), list + ":2: " + (folder / "b.png").string() + " does not exist");
+  EXPECT_EQ(error("# nothing\n"),
+            "the list of pairs " + list + " is empty; expected two paths a line: left right");
+}
+
+TEST(ImagePadding, PadsByRepetitionAndCropsBack) {
+  const StereoImages images{grey(45, 33, 1), grey(45, 33, 2)};
+  const StereoImages padded = pad_images(images, {});
+  ASSERT_EQ(padded.left.size(), cv::Size(64, 48));
+  ASSERT_EQ(padded.right.size(), cv::Size(64, 48));
+  for (int y = 0; y < 48; ++y) {
+    for (int x = 0; x < 64; ++x) {
+      ASSERT_EQ(padded.left.at<std::uint8_t>(y, x),
+                images.left.at<std::uint8_t>(std::min(y, 32), std::min(x, 44)));
+    }
+  }
+  EXPECT_EQ(cv::norm(crop_image(padded.right, {45, 33}), images.right, cv::NORM_INF), 0);
+  EXPECT_EQ(pad_images(padded, {}).left.data, padded.left.data) << "nothing to do, nothing copied";
+
+  std::vector<Disparity> map(64 * 48);
+  for (std::size_t i = 0; i < map.size(); ++i) {
+    map[i].value = static_cast<std::uint16_t>(i);
+  }
+  const std::vector<Disparity> cropped = crop_disparities(map, 64, {45, 33});
+  ASSERT_EQ(cropped.size(), 45u * 33u);
+  EXPECT_EQ(cropped[45 * 32 + 44].value, 64 * 32 + 44);
+}
+
+TEST(ImagePadding, Notice) {
+  EXPECT_EQ(padding_notice({640, 480}, {}), "");
+  EXPECT_EQ(padding_notice({450, 375}, {}),
+            "image size 450x375 is not a multiple of 32x16: processed as 480x384 by repeating the last "
+            "column and row, "
+            "results are cropped back");
+}
+
+}  // namespace
+}  // namespace parallax

@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <opencv2/imgcodecs.hpp>
+#include <sstream>
+#include <string>
+
+#include "platform/disparity_bin.hpp"
+#include "platform/point_cloud.hpp"
+#include "platform/result_images.hpp"
+#include "platform/scene_hash.hpp"
+#include "temporary_folder.hpp"
+#include "tlm/error.hpp"
+
+namespace parallax {
+namespace {
+
+std::vector<Disparity> random_map(int width, int height, std::uint64_t seed) {
+  std::vector<Disparity> map(static_cast<std::size_t>(width * height));
+  for (std::size_t i = 0; i < map.size(); ++i) {
+    const std::uint64_t random = scene_hash(seed, i);
+    map[i].cause = static_cast<Cause>(random & 7);
+    map[i].value = map[i].cause <= Cause::kInterpolated ? static_cast<std::uint16_t>((random >> 8) % 0xFFF)
+                                                        : kInvalidDisparity;
+  }
+  return map;
+}
+
+cv::Mat decoded(const std::vector<unsigned char>& bytes) { return cv::imdecode(bytes, cv::IMREAD_UNCHANGED); }
+
+/// Bit by bit: pixel i of a row occupies the row's bits 12 i to 12 i + 11, least significant first.
+int naive_unpack(const std::vector<unsigned char>& bytes, int width, int x, int y) {
+  const int row_bits = (width * 12 + 7) / 8 * 8;
+  int value = 0;
+  for (int bit = 0; bit < 12; ++bit) {
+    const int at = y * row_bits + x * 12 + bit;
+    value |= ((bytes.at(static_cast<std::size_t>(at / 8)) >> (at % 8)) & 1) << bit;
+  }
+  return value;
+}
+
+TEST(DisparityBin, RoundTripAndIndependentUnpacker) {
+  for (const auto& [width, height] : {std::pair{1, 1}, {2, 1}, {3, 5}, {32, 16}, {33, 7}, {640, 3}}) {
+    const std::vector<Disparity> map = random_map(width, height, 5);
+    const std::vector<unsigned char> bytes = pack_disparities({map, width, height});
+    EXPECT_EQ(bytes.size(), static_cast<std::size_t>((width * 12 + 7) / 8 * height));
+    const std::vector<std::uint16_t> values = unpack_disparities(bytes, width, height);
+    ASSERT_EQ(values.size(), map.size());
+    for (int y = 0; y < height; ++y) {
+      for (int x = 0; x < width; ++x) {
+        const auto i = static_cast<std::size_t>(y * width + x);
+        ASSERT_EQ(values[i], map[i].value);
+        ASSERT_EQ(naive_unpack(bytes, width, x, y), map[i].value);
+      }
+    }
+  }
+}
+
+TEST(DisparityBin, KnownBytes) {
+  const std::vector<Disparity> map{
+      {0xABC, Cause::kMatched}, {0x123, Cause::kMatched}, {0xFFF, Cause::kSpeckle}};
+  EXPECT_EQ(pack_disparities({map, 3, 1}), (std::vector<unsigned char>{0xBC, 0x3A, 0x12, 0xFF, 0x0F}));
+}
+
+TEST(DisparityBin, WrongLengthIsAUserError) {
+  EXPECT_EQ(error_line<UserError>([] { unpack_disparities(std::vector<unsigned char>(10), 4, 2); }),
+            "the packed disparity map has 10 bytes, 4x2 pixels of 12 bits need 12");
+}
+
+TEST(DisparityView, SizeMustBeThatOfThePixels) {
+  EXPECT_THROW(DisparityView(std::vector<Disparity>(5), 2, 3), std::invalid_argument);
+  EXPECT_THROW(DisparityView({}, 0, 0), std::invalid_argument);
+}
+
+TEST(DisparityPng, KittiConvention) {
+  const int width = 67, height = 31;
+  std::vector<Disparity> map = random_map(width, height, 7);
+  map[0] = {0, Cause::kMatched};
+  map[1] = {1, Cause::kMatched};
+  map[2] = {0xFFE, Cause::kMatched};
+  const cv::Mat image = decoded(encode_disparity_png({map, width, height}));
+  ASSERT_EQ(image.size(), cv::Size(width, height));
+  ASSERT_EQ(image.type(), CV_16UC1);
+  EXPECT_EQ(image.at<std::uint16_t>(0, 0), 1) << "disparity 0 is valid";
+  EXPECT_EQ(image.at<std::uint16_t>(0, 1), 16);
+  EXPECT_EQ(image.at<std::uint16_t>(0, 2), 0xFFE * 16);
+  for (int i = 1; i < width * height; ++i) {
+    const Disparity& d = map[static_cast<std::size_t>(i)];
+    const int read = image.at<std::uint16_t>(i / width, i % width);
+    ASSERT_EQ(read != 0, d.valid() || read == 1);
+    if (d.valid() && d.value > 0) {
+      ASSERT_EQ(read / 256.0, d.value / 16.0);
+    }
+  }
+}
+
+TEST(DisparityColorPng, ScaleInvalidAndLegend) {
+  const int width = 320, height = 40;
+  std::vector<Disparity> map(static_cast<std::size_t>(width * height));
+  for (int i = 0; i < width; ++i) {
+    map[static_cast<std::size_t>(i)] = {static_cast<std::uint16_t>(16 * (64 + i * 128 / width)),
+                                        Cause::kMatched};
+  }
+  const cv::Mat image = decoded(encode_disparity_color_png({map, width, height}, {64, 191}));
+  ASSERT_EQ(image.type(), CV_8UC3);
+  ASSERT_EQ(image.size(), cv::Size(width, height + 24));
+  const auto far = image.at<cv::Vec3b>(0, 20);
+  const auto near = image.at<cv::Vec3b>(0, width - 20);
+  EXPECT_GT(far[0], far[2]);
+  EXPECT_GT(near[2], near[0]);
+  EXPECT_EQ(image.at<cv::Vec3b>(1, 5), cv::Vec3b(0, 0, 0));
+  for (int x = 0; x < width; ++x) {
+    ASSERT_NE(image.at<cv::Vec3b>(0, x), cv::Vec3b(0, 0, 0)) << "a valid pixel looks invalid";
+  }
+  EXPECT_GT(cv::mean(image(cv::Rect(0, height, width, 24)))[1], 10) << "the legend is empty";
+}
+
+TEST(DisparityColorPng, NarrowMapHasNoLegend) {
+  const std::vector<Disparity> map(3 * 2);
+  EXPECT_EQ(decoded(encode_disparity_color_png({map, 3, 2}, {0, 0})).size(), cv::Size(3, 2));
+}
+
+TEST(CausesPng, ColourAndLabel) {
+  const int width = 320, height = 20;
+  const std::vector<Disparity> map = random_map(width, height, 9);
+  const cv::Mat colour = decoded(encode_causes_png({map, width, height}));
+  const cv::Mat labels = decoded(encode_cause_labels_png({map, width, height}));
+  ASSERT_EQ(labels.size(), cv::Size(width, height));
+  ASSERT_EQ(labels.type(), CV_8UC1);
+  ASSERT_EQ(colour.size(), cv::Size(width, height + 4 * 24)) << "eight names in two columns";
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const auto cause = static_cast<std::size_t>(map[static_cast<std::size_t>(y * width + x)].cause);
+      ASSERT_EQ(labels.at<std::uint8_t>(y, x), cause);
+      const auto& rgb = cause_styles()[cause].rgb;
+      ASSERT_EQ(colour.at<cv::Vec3b>(y, x), cv::Vec3b(rgb[2], rgb[1], rgb[0]));
+    }
+  }
+  EXPECT_EQ(decoded(encode_causes_png({random_map(5, 5, 1), 5, 5})).size(), cv::Size(5, 5));
+}
+
+TEST(CausesPng, EveryCauseHasItsOwnStyle) {
+  for (std::size_t i = 0; i < cause_styles().size(); ++i) {
+    EXPECT_EQ(static_cast<std::size_t>(cause_styles()[i].cause), i);
+    for (std::size_t j = 0; j < i; ++j) {
+      EXPECT_NE(cause_styles()[i].rgb, cause_styles()[j].rgb);
+      EXPECT_NE(cause_styles()[i].name, cause_styles()[j].name);
+    }
+  }
+}
+
+TEST(GreyPng, RoundTrip) {
+  cv::Mat image(7, 9, CV_8UC1);
+  for (int i = 0; i < 63; ++i) {
+    image.at<std::uint8_t>(i / 9, i % 9) =
+        static_cast<std::uint8_t>(scene_hash(1, static_cast<std::uint64_t>(i)));
+  }
+  EXPECT_EQ(cv::norm(decoded(encode_png(image)), image, cv::NORM_INF), 0);
+}
+
+struct Vertex {
+  float x, y, z;
+  int grey;
+};
+
+std::vector<Vertex> parse_ply(const std::vector<unsigned char>& bytes) {
+  const std::string text(bytes.begin(), bytes.end());
+  const std::size_t body = text.find("end_header\n") + 11;
+  std::istringstream header(text.substr(0, body));
+  std::string line;
+  std::getline(header, line);
+  EXPECT_EQ(line, "ply");
+  std::getline(header, line);
+  EXPECT_EQ(line, "format binary_little_endian 1.0");
+  std::size_t count = 0;
+  std::vector<std::string> properties;
+  while (std::getline(header, line)) {
+    if (line.rfind("element vertex ", 0) == 0) count = std::stoul(line.substr(15));
+    if (line.rfind("property ", 0) == 0) properties.push_back(line.substr(9));
+  }
+  EXPECT_EQ(properties, (std::vector<std::string>{"float x", "float y", "float z", "uchar red", "uchar green",
+                                                  "uchar blue"}));
+  EXPECT_EQ(bytes.size(), body + 15 * count);
+  std::vector<Vertex> vertices;
+  for (std::size_t i = 0; i < count; ++i) {
+    Vertex v{};
+    std::memcpy(&v.x, &bytes[body + 15 * i], 12);
+    v.grey = bytes[body + 15 * i + 12];
+    EXPECT_EQ(v.grey, bytes[body + 15 * i + 13]);
+    EXPECT_EQ(v.grey, bytes[body + 15 * i + 14]);
+    vertices.push_back(v);
+  }
+  return vertices;
+}
+
+TEST(PointCloud, VerticesAreTheReprojectedPixels) {
+  const int width = 21, height = 9;
+  std::vector<Disparity> map = random_map(width, height, 11);
+  map[4] = {0, Cause::kMatched};  // at infinity: left out
+  cv::Mat left(height, width, CV_8UC1);
+  for (int i = 0; i < width * height; ++i) {
+    left.at<std::uint8_t>(i / width, i % width) = static_cast<std::uint8_t>(i);
+  }
+  const double f = 500, cx = 10, cy = 4, baseline = 0.12;
+  const cv::Matx44d q(1, 0, 0, -cx, 0, 1, 0, -cy, 0, 0, 0, f, 0, 0, 1 / baseline, 0);
+  const std::vector<Vertex> vertices = parse_ply(encode_point_cloud_ply({map, width, height}, left, q));
+  std::size_t next = 0;
+  for (int i = 0; i < width * height; ++i) {
+    const Disparity& d = map[static_cast<std::size_t>(i)];
+    if (!d.valid() || d.value == 0) {
+      continue;
+    }
+    ASSERT_LT(next, vertices.size());
+    const Vertex& v = vertices[next++];
+    const double z = f * baseline / (d.value / 16.0);
+    EXPECT_NEAR(v.z / z, 1, 1e-6);
+    EXPECT_NEAR(v.x, (i % width - cx) * z / f, 1e-5 * z);
+    EXPECT_NEAR(v.y, (i / width - cy) * z / f, 1e-5 * z);
+    EXPECT_EQ(v.grey, i & 255);
+  }
+  EXPECT_EQ(next, vertices.size());
+}
+
+TEST(PointCloud, NoValidPixelIsAnEmptyCloud) {
+  const std::vector<Disparity> map(4);
+  EXPECT_TRUE(parse_ply(encode_point_cloud_ply({map, 2, 2}, cv::Mat(2, 2, CV_8UC1, cv::Scalar(0)),
+                                               cv::Matx44d::eye()))
+                  .empty());
+  EXPECT_THROW(encode_point_cloud_ply({map, 2, 2}, cv::Mat(3, 2, CV_8UC1, cv::Scalar(0)), cv::Matx44d::eye()),
+               std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace parallax

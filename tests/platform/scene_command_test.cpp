@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "platform/scene_command.hpp"
+
+#include <gtest/gtest.h>
+
+#include <CLI/CLI.hpp>
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
+
+#include "platform/image_input.hpp"
+#include "platform/scene.hpp"
+#include "temporary_folder.hpp"
+#include "tlm/error.hpp"
+
+namespace parallax {
+namespace {
+
+int run(const std::string& arguments) {
+  CLI::App app;
+  std::function<int()> action;
+  add_scene_command(app, action);
+  app.parse("scene " + arguments);
+  return action();
+}
+
+bool same(const cv::Mat& a, const cv::Mat& b) {
+  return a.size() == b.size() && a.type() == b.type() && cv::norm(a, b, cv::NORM_INF) == 0;
+}
+
+TEST(SceneCommand, OnePair) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(run("--out " + (folder / "a/b").string() + " --size 96x64 --disparities 32 --seed 5"), 0);
+  SceneConfig config;
+  config.width = 96;
+  config.height = 64;
+  config.disparities = 32;
+  config.seed = 5;
+  const Scene scene(config);
+  const StereoImages images = scene.render(0);
+  const SceneTruth truth = scene.truth(0);
+  const auto read = [&](const std::string& name) {
+    return cv::imread((folder / "a/b" / name).string(), cv::IMREAD_UNCHANGED);
+  };
+  EXPECT_TRUE(same(read("left.png"), images.left));
+  EXPECT_TRUE(same(read("right.png"), images.right));
+  EXPECT_TRUE(same(read("disp_gt.png"), truth.disparity));
+  EXPECT_TRUE(same(read("mask_nocc.png"), truth.mask));
+  cv::FileStorage calibration((folder / "a/b/calib.yml").string(), cv::FileStorage::READ);
+  EXPECT_EQ(static_cast<int>(calibration["image_width"]), 96);
+}
+
+TEST(SceneCommand, SequenceIsASequenceForTheImageInput) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(run("--out " + folder.path().string() + " --size 33x17 --frames 3 --rectified"), 0);
+  ImageInput input(find_image_pairs(folder.path()), {}, {});
+  EXPECT_EQ(input.frames(), 3u);
+  EXPECT_EQ(input.paths(2).left.filename(), "left_02.png");
+  SceneConfig config;
+  config.width = 33;
+  config.height = 17;
+  config.distortion = false;
+  EXPECT_TRUE(same(input.load(2).right, Scene(config).render(2).right));
+}
+
+TEST(SceneCommand, Errors) {
+  const TemporaryFolder folder;
+  const auto error = [&](const std::string& arguments) {
+    return error_line<UserError>([&] { run("--out " + (folder / "new").string() + " " + arguments); });
+  };
+  EXPECT_EQ(error("--size 640"), "--size is '640', expected width x height such as 640x480");
+  EXPECT_EQ(error("--size 640x480x3"), "--size is '640x480x3', expected width x height such as 640x480");
+  EXPECT_EQ(error("--size 2000x480"), "scene.width is 2000, allowed is 1 to 1856");
+  EXPECT_EQ(error("--frames 0"), "--frames is 0, allowed is 1 and more");
+  EXPECT_FALSE(std::filesystem::exists(folder / "new"));
+  EXPECT_EQ(error_line<UserError>([] { run("--size 8x8 --out /dev/null/x"); }),
+            "cannot make the folder /dev/null/x: Not a directory");
+}
+
+}  // namespace
+}  // namespace parallax
