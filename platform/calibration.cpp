@@ -102,6 +102,26 @@ cv::Matx33d rotation(const CalibrationFile& file, const std::string& name) {
   return r;
 }
 
+// For lenses of about 150 degrees and more, cv::fisheye::stereoRectify derives focal length and principal
+// point from rays near or behind the image plane, and the rectified image shows nothing of the scene. The
+// lenses' own mean focal length and the image's centre then stand in.
+void repair_wide_fisheye(Calibration& c, const cv::Vec3d& translation) {
+  const auto plausible = [&c](const cv::Matx34d& p) {
+    return p(0, 0) > 0 && p(0, 2) >= 0 && p(0, 2) <= c.size.width && p(1, 2) >= 0 && p(1, 2) <= c.size.height;
+  };
+  if (plausible(c.P1) && plausible(c.P2)) {
+    return;
+  }
+  const cv::Matx33d& left = c.left.camera;
+  const cv::Matx33d& right = c.right.camera;
+  const double focal = (left(0, 0) + left(1, 1) + right(0, 0) + right(1, 1)) / 4;
+  const cv::Vec3d baseline = c.R2 * translation;
+  c.P1 = {focal, 0, (c.size.width - 1) / 2.0, 0, 0, focal, (c.size.height - 1) / 2.0, 0, 0, 0, 1, 0};
+  c.P2 = c.P1;
+  c.P2(0, 3) = focal * baseline[0];
+  c.Q = disparity_to_depth(c.P1, c.P2);
+}
+
 // R1, R2, P1, P2, Q from R and T.
 void compute_rectification(const CalibrationFile& file, Calibration& c) {
   const cv::Matx33d r = rotation(file, "R");
@@ -131,6 +151,9 @@ void compute_rectification(const CalibrationFile& file, Calibration& c) {
   c.P1 = cv::Matx34d(p1.ptr<double>());
   c.P2 = cv::Matx34d(p2.ptr<double>());
   c.Q = cv::Matx44d(q.ptr<double>());
+  if (c.model == LensModel::kFisheye) {
+    repair_wide_fisheye(c, t);
+  }
 }
 
 void check_projections(const std::string& name, const Calibration& c) {

@@ -53,8 +53,9 @@ struct Calibration {
 ///   R1, R2, P1, P2, optionally Q: all or none
 /// Without R1..P2 they are computed by cv::stereoRectify or cv::fisheye::stereoRectify with
 /// CALIB_ZERO_DISPARITY and alpha (balance) 0, that is, zoomed until no pixel lies outside the raw images;
-/// with them R and T are not needed. `size` stands in when the files do not state the image size. Throws
-/// UserError naming file and entry.
+/// with them R and T are not needed. Fisheye lenses so wide that OpenCV's principal point falls outside the
+/// image get their own mean focal length and the image's centre instead. `size` stands in when the files do
+/// not state the image size. Throws UserError naming file and entry.
 Calibration read_calibration(const std::vector<std::string>& paths, const ImageSize& size = {});
 
 /// Throws UserError unless the calibration is for images of this size.

@@ -2,7 +2,9 @@
 #include "modules/map_file.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
+#include <csignal>
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>
@@ -169,6 +171,21 @@ TEST_F(MapFile, AFullDiskIsReported) {
   EXPECT_EQ(message([] { write_map_file("/dev/full", encode(identity_map(4, 4))); }),
             "/dev/full: cannot write: No space left on device");
   EXPECT_TRUE(std::filesystem::is_character_file("/dev/full"));
+}
+
+TEST_F(MapFile, AWriteThatFailsHalfwayLeavesTheOldFile) {
+  const EncodedMap old = encode(identity_map(4, 4));
+  write_map_file(path("a.map"), old);
+  std::signal(SIGXFSZ, SIG_IGN);
+  rlimit before{};
+  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
+  const rlimit small{200, before.rlim_max};
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
+  const std::string line = message([&] { write_map_file(path("a.map"), encode(identity_map(640, 480))); });
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &before), 0);
+  EXPECT_EQ(line, path("a.map") + ": cannot write: File too large");
+  EXPECT_EQ(files(), 1U);
+  EXPECT_EQ(read_map_file(path("a.map")).bytes, old.bytes);
 }
 
 }  // namespace

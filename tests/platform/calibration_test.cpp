@@ -76,6 +76,20 @@ TEST_F(CalibrationTest, EveryPinholeAndFisheyeModelIsRead) {
   EXPECT_NEAR(c.baseline(), 0.1, 1e-3);
 }
 
+TEST_F(CalibrationTest, AVeryWideFisheyeKeepsItsFocalLength) {
+  SyntheticPair pair = test::fisheye_pair();
+  pair.width = 848;
+  pair.height = 800;
+  pair.focal = 286;
+  pair.distortion = {-0.008, 0.04, -0.037, 0.006};
+  const Calibration c = read_calibration({write("c.yml", pair.text())});
+  EXPECT_NEAR(c.P1(0, 0), 286, 1);
+  EXPECT_EQ(c.P1(0, 2), 423.5);
+  EXPECT_EQ(c.P1(1, 2), 399.5);
+  EXPECT_NEAR(c.baseline(), 0.1, 1e-3);
+  EXPECT_NEAR(c.Q(3, 2), 10, 0.1);
+}
+
 TEST_F(CalibrationTest, ReadsIntrinsicsAndExtrinsicsOfTheStereoCalibSample) {
   const SyntheticPair pair;
   const Calibration whole = read_calibration({write("c.yml", pair.text())});
