@@ -24,7 +24,7 @@ void check_border(const char* key, int value) {
 /// Index of the first (or last) of n costs that equals `lowest`, which is among them. Looks at blocks first,
 /// because "is it in here" vectorises and "where is it" does not.
 int find(const Cost* costs, int n, Cost lowest, TieRule rule) {
-  constexpr int kBlock = 16;
+  constexpr int kBlock = 32;
   if (rule == TieRule::kHighest) {
     int k = n - 1;
     while (costs[k] != lowest) --k;
@@ -32,8 +32,8 @@ int find(const Cost* costs, int n, Cost lowest, TieRule rule) {
   }
   int k = 0;
   for (; k + kBlock <= n; k += kBlock) {
-    unsigned found = 0;
-    for (int i = 0; i < kBlock; ++i) found |= costs[k + i] == lowest ? 1U : 0U;
+    Cost found = 0;
+    for (int i = 0; i < kBlock; ++i) found |= costs[k + i] == lowest ? Cost{1} : Cost{0};
     if (found) break;
   }
   while (costs[k] != lowest) ++k;

@@ -2,6 +2,8 @@
 // What the stages behind the matcher agree on: the searched range, ties, and the integer part of a disparity.
 #pragma once
 
+#include <cstdint>
+
 #include "modules/pixel.hpp"
 
 namespace parallax {
@@ -21,9 +23,14 @@ enum class TieRule { kLowest, kHighest };
 
 /// Lowest of n costs; 0xFFFF if there is none.
 inline Cost lowest_cost(const Cost* costs, int n) {
-  Cost lowest = 0xFFFF;
-  for (int k = 0; k < n; ++k) lowest = costs[k] < lowest ? costs[k] : lowest;
-  return lowest;
+  // Compared as signed numbers, because baseline x86-64 has a minimum of those only.
+  constexpr int kFlip = 0x8000;
+  std::int16_t lowest = 0x7FFF;
+  for (int k = 0; k < n; ++k) {
+    const auto cost = static_cast<std::int16_t>(costs[k] ^ kFlip);
+    lowest = cost < lowest ? cost : lowest;
+  }
+  return static_cast<Cost>(lowest ^ kFlip);
 }
 
 /// The integer disparity (px) behind a valid 8.4 value: the nearest integer, and the lower one of two equally
