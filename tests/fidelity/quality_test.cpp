@@ -43,7 +43,7 @@ std::vector<Disparity> sgbm(const SgbmVariant& variant, const StereoScene& scene
   return result;
 }
 
-std::vector<Disparity> parallax(const StereoScene& scene) {
+std::vector<Disparity> chain_disparities(const StereoScene& scene) {
   ChainConfig config;
   config.matching.iterations = scene.disparities / config.matching.parallelism;
   return run_chain(config, scene.left, scene.right);
@@ -85,7 +85,7 @@ void print_header() {
 
 /// Prints the scene's lines of the table and returns, for each variant, the comparison where both can match.
 std::array<Comparison, std::size(kVariants)> measure(const StereoScene& scene) {
-  const std::vector<Disparity> ours = parallax(scene);
+  const std::vector<Disparity> ours = chain_disparities(scene);
   const GroundTruth inner = right_of_search_range(scene);
   std::array<Comparison, std::size(kVariants)> result;
   for (std::size_t i = 0; i < result.size(); ++i) {
@@ -129,7 +129,7 @@ TEST(Quality, RoadScenes) {
   print_header();
   for (const StereoScene& scene : scenes) {
     const Comparison comparison = measure(scene)[0];
-    EXPECT_LE(comparison.more_bad, 1.5) << scene.name;
+    EXPECT_LE(comparison.more_bad, 2.0) << scene.name;
     EXPECT_GE(comparison.more_coverage, -22) << scene.name;
   }
 }

@@ -152,12 +152,12 @@ TEST(GapInterpolation, SaysWhatIsWrongWithItsConfiguration) {
   GapInterpolationConfig config;
   EXPECT_EQ(complaint(config), "");
   config.l_max = 65;
-  EXPECT_EQ(complaint(config), "gap_interpolation.l_max: 65 is out of range, allowed are 0 to 64");
+  EXPECT_EQ(complaint(config), "gap_interpolation.l_max = 65: must be within 0..64");
   config.l_max = -1;
   EXPECT_THROW(GapInterpolation(config, 8, 8), UserError);
   config = {};
   config.max_difference = -1;
-  EXPECT_EQ(complaint(config), "gap_interpolation.max_difference: -1 is out of range, allowed are 0 to 4094");
+  EXPECT_EQ(complaint(config), "gap_interpolation.max_difference = -1: must be within 0..4094");
 }
 
 }  // namespace

@@ -109,12 +109,11 @@ TEST(NoiseReduction, SaysWhatIsWrongWithItsConfiguration) {
   NoiseReductionConfig config;
   EXPECT_EQ(complaint(config), "");
   config.window = 9;
-  EXPECT_EQ(complaint(config),
-            "noise_reduction.window: 9 is out of range, allowed are the odd numbers from 3 to 7");
+  EXPECT_EQ(complaint(config), "noise_reduction.window = 9: must be odd and within 3..7");
   EXPECT_THROW(NoiseReduction(config, 8, 8), UserError);
   config = {};
   config.max_difference = 5000;
-  EXPECT_EQ(complaint(config), "noise_reduction.max_difference: 5000 is out of range, allowed are 0 to 4094");
+  EXPECT_EQ(complaint(config), "noise_reduction.max_difference = 5000: must be within 0..4094");
 }
 
 }  // namespace

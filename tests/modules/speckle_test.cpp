@@ -111,17 +111,17 @@ TEST(Speckle, SaysWhatIsWrongWithItsConfiguration) {
   SpeckleConfig config;
   EXPECT_EQ(complaint(config), "");
   config.iterations = 5;
-  EXPECT_EQ(complaint(config), "speckle.iterations: 5 is out of range, allowed are 0 to 4");
+  EXPECT_EQ(complaint(config), "speckle.iterations = 5: must be within 0..4");
   EXPECT_THROW(Speckle(config, 8, 8), UserError);
   config = {};
   config.window = 8;
-  EXPECT_EQ(complaint(config), "speckle.window: 8 is out of range, allowed are the odd numbers from 3 to 31");
+  EXPECT_EQ(complaint(config), "speckle.window = 8: must be odd and within 3..31");
   config = {};
   config.min_similar_percent = 101;
-  EXPECT_EQ(complaint(config), "speckle.min_similar_percent: 101 is out of range, allowed are 0 to 100");
+  EXPECT_EQ(complaint(config), "speckle.min_similar_percent = 101: must be within 0..100");
   config = {};
   config.max_difference = 4095;
-  EXPECT_EQ(complaint(config), "speckle.max_difference: 4095 is out of range, allowed are 0 to 4094");
+  EXPECT_EQ(complaint(config), "speckle.max_difference = 4095: must be within 0..4094");
 }
 
 }  // namespace

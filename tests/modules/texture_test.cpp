@@ -182,14 +182,14 @@ TEST(Texture, SaysWhatIsWrongWithItsConfiguration) {
   TextureConfig config;
   EXPECT_EQ(complaint(config), "");
   config.threshold = 64;
-  EXPECT_EQ(complaint(config), "texture.threshold: 64 is out of range, allowed are 0 to 63");
+  EXPECT_EQ(complaint(config), "texture.threshold = 64: must be within 0..63");
   config.threshold = -1;
-  EXPECT_EQ(complaint(config), "texture.threshold: -1 is out of range, allowed are 0 to 63");
+  EXPECT_EQ(complaint(config), "texture.threshold = -1: must be within 0..63");
   config = {};
   for (const int window : {1, 4, 17}) {
     config.window = window;
-    EXPECT_EQ(complaint(config), "texture.window: " + std::to_string(window) +
-                                     " is out of range, allowed are the odd numbers from 3 to 15");
+    EXPECT_EQ(complaint(config),
+              "texture.window = " + std::to_string(window) + ": must be odd and within 3..15");
     EXPECT_THROW(Texture(config, 8, 8), UserError);
   }
 }
