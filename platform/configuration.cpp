@@ -32,15 +32,18 @@ std::string origins_of(const std::string& line, const RawConfig& raw) {
   return origins.empty() ? "" : " (" + origins + ")";
 }
 
-RawConfig disparity_range_assignment(std::int64_t range, const Schema& schema) {
+RawValue iterations_for(std::int64_t range, const Schema& schema) {
   const std::string origin = fmt::format("--disparities {}", range);
   const auto parallelism = std::get<std::int64_t>(schema.find("matching.parallelism")->get());
   if (range <= 0 || range % parallelism != 0) {
     throw UserError(
         fmt::format("{}: must be a positive multiple of matching.parallelism = {}", origin, parallelism));
   }
-  return {{"matching.iterations",
-           RawValue{ConfigValue(range / parallelism), std::nullopt, "command line", origin}}};
+  RawValue iterations;
+  iterations.value = ConfigValue(range / parallelism);
+  iterations.source = "command line";
+  iterations.origin = origin;
+  return iterations;
 }
 
 }  // namespace
@@ -59,9 +62,9 @@ Configuration load_configuration(const ConfigurationRequest& request,
   }
   schema.apply(raw);
   if (request.disparity_range) {
-    RawConfig range = disparity_range_assignment(*request.disparity_range, schema);
-    schema.apply(range);
-    for (auto& [key, value] : range) raw[key] = std::move(value);
+    // The range counts in the parallelism that is in effect by now.
+    raw["matching.iterations"] = iterations_for(*request.disparity_range, schema);
+    schema.apply(raw);
   }
 
   try {
