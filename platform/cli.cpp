@@ -10,12 +10,12 @@
 
 #include "platform/command_context.hpp"
 #include "platform/config_command.hpp"
+#include "platform/map_command.hpp"
 #include "platform/nearest_name.hpp"
+#include "platform/run_command.hpp"
+#include "platform/scene_command.hpp"
+#include "platform/version.hpp"
 #include "tlm/error.hpp"
-
-#ifndef PARALLAX_VERSION
-#define PARALLAX_VERSION "0.1.0"
-#endif
 
 namespace parallax {
 namespace {
@@ -83,7 +83,7 @@ int run_command_line(int argc, const char* const* argv) {
 
 int run_command_line(int argc, const char* const* argv, std::ostream& out, std::ostream& err) {
   CLI::App app("A SystemC model of an FPGA that turns stereo image pairs into disparity maps.", "parallax");
-  app.set_version_flag("--version", "parallax " PARALLAX_VERSION, "Print the version");
+  app.set_version_flag("--version", fmt::format("parallax {} ({})", version(), revision()), "Print the version");
   app.set_help_all_flag("--help-all", "Print the help of all commands");
   bool quiet = false, verbose = false;
   app.add_flag("-q,--quiet", quiet, "Print errors only");
@@ -91,12 +91,16 @@ int run_command_line(int argc, const char* const* argv, std::ostream& out, std::
   app.fallthrough();  // the options above may follow the command
 
   CommandContext context{out, err};
+  add_run_command(app, context);
   add_config_command(app, context);
+  add_map_command(app);
+  add_scene_command(app, context.action);
 
   try {
     if (parse(app, argc, argv, out)) return 0;
     if (quiet) context.verbosity = Verbosity::kQuiet;
     if (verbose) context.verbosity = Verbosity::kVerbose;
+    if (!context.action && app.got_subcommand("map")) return 0;
     if (!context.action) throw UserError("no command given; parallax --help lists them");
     const int code = context.action();
     if (!out.flush()) throw UserError("cannot write to standard output");

@@ -98,6 +98,15 @@ double Evaluation::bad_share_all(int limit) const {
 
 double Evaluation::mean_error() const { return share(absolute_error, valid) / kStepsPerPixel; }
 
+Evaluation& Evaluation::operator+=(const Evaluation& other) {
+  pixels += other.pixels;
+  scored += other.scored;
+  valid += other.valid;
+  for (std::size_t i = 0; i < bad.size(); ++i) bad[i] += other.bad[i];
+  absolute_error += other.absolute_error;
+  return *this;
+}
+
 std::vector<Quality> Evaluation::qualities() const {
   std::vector<Quality> result = {
       {"scored_pixels", "pixels with a known true disparity that the mask selects", "px",

@@ -42,6 +42,9 @@ struct Evaluation {
   std::array<std::int64_t, kLimits> bad = {};  ///< valid ones that are off by more than 1, 2, 3 px
   std::int64_t absolute_error = 0;             ///< sum over valid ones, 1/256 px
 
+  /// Adds another image's counts.
+  Evaluation& operator+=(const Evaluation& other);
+
   /// Shares in 0..1; 0 if there is nothing to share.
   double coverage() const;
   double bad_share(int limit) const;      ///< of the valid pixels

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "platform/evaluation.hpp"
+#include "platform/machine.hpp"
+#include "traces/metrics.hpp"
+
+namespace parallax {
+
+/// What was added up over the frames of a run.
+struct RunTotals {
+  std::int64_t frames = 0;  ///< with images
+  std::int64_t pixels = 0;  ///< of the images as given
+  std::int64_t valid = 0;   ///< pixels with a disparity
+  bool has_truth = false;
+  Evaluation evaluation;  ///< summed over the frames with ground truth
+  double wall_seconds = 0;
+  double peak_megabytes = 0;
+};
+
+/// Everything that `timing.json` and the summary say of a run: "run", "input", "performance", "latency", "limit",
+/// "memory", "stages", "streams", "quality".
+MetricGroup measure(const Machine& machine, const RunTotals& totals, int image_width, int image_height);
+
+/// The summary that a person reads, from that tree.
+std::string summary(const MetricGroup& metrics);
+
+}  // namespace parallax

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "platform/configuration.hpp"
+#include "platform/scene_config.hpp"
+
+namespace parallax {
+
+/// What the user asked `parallax run` for.
+struct RunOptions {
+  ConfigurationRequest configuration;
+  // Input: a pair, a folder or list, or else the built-in scene.
+  std::string left;
+  std::string right;
+  std::string input;
+  std::string size;           ///< WxH of the built-in scene
+  SceneConfig scene;
+  bool rectified = false;     ///< the built-in scene without distortion
+  std::int64_t frames = 0;    ///< 0: all of the input; one of the scene
+  std::int64_t timing_frames = 4;
+  std::string ground_truth;
+  std::string mask;
+  // Rectification.
+  std::vector<std::string> calibration;
+  std::string map;
+  bool fit = false;
+  // Output.
+  std::filesystem::path out;
+  bool point_cloud = true;
+  bool json = false;
+};
+
+}  // namespace parallax
