@@ -13,6 +13,10 @@
 #include "platform/nearest_name.hpp"
 #include "tlm/error.hpp"
 
+// Written by the build when it knows the version.
+#if __has_include("platform/revision.hpp")
+#include "platform/revision.hpp"
+#endif
 #ifndef PARALLAX_VERSION
 #define PARALLAX_VERSION "0.1.0"
 #endif
