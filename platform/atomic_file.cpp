@@ -21,8 +21,8 @@ int write_all(const fs::path& path, const std::vector<unsigned char>& bytes) {
   if (file == nullptr) {
     return errno;
   }
-  const bool written =
-      std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size() && std::fflush(file) == 0;
+  const bool given = bytes.empty() || std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size();
+  const bool written = given && std::fflush(file) == 0;
   const int write_error = written ? 0 : errno;
   // Network file systems report a full disk as late as here.
   const int close_error = std::fclose(file) == 0 ? 0 : errno;

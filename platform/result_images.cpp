@@ -26,11 +26,12 @@ int text_width(const std::string& text) {
   return cv::getTextSize(text, cv::FONT_HERSHEY_SIMPLEX, kTextScale, 1, &baseline).width;
 }
 
-/// The colour scale's 256 colours, far to near.
+/// The colour scale's 256 colours, far to near. The map's darkest blues are left out: they look like black,
+/// which means invalid.
 cv::Mat color_scale() {
   cv::Mat ramp(1, 256, CV_8UC1);
   for (int i = 0; i < 256; ++i) {
-    ramp.at<std::uint8_t>(0, i) = static_cast<std::uint8_t>(i);
+    ramp.at<std::uint8_t>(0, i) = static_cast<std::uint8_t>(24 + i * (255 - 24) / 255);
   }
   cv::Mat colors;
   cv::applyColorMap(ramp, colors, cv::COLORMAP_TURBO);

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "error_line.hpp"
 #include "temporary_folder.hpp"
 #include "tlm/error.hpp"
 

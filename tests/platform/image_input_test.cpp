@@ -8,6 +8,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "error_line.hpp"
 #include "platform/image_padding.hpp"
 #include "platform/scene_hash.hpp"
 #include "platform/stderr_capture.hpp"

@@ -7,6 +7,7 @@
 #include <sstream>
 #include <string>
 
+#include "error_line.hpp"
 #include "platform/disparity_bin.hpp"
 #include "platform/point_cloud.hpp"
 #include "platform/result_images.hpp"

@@ -7,6 +7,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
+#include "error_line.hpp"
 #include "platform/image_input.hpp"
 #include "platform/scene.hpp"
 #include "temporary_folder.hpp"

@@ -41,15 +41,4 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-/// The one line of the UserError that `action` throws; "no error" when it throws none.
-template <class Error, class Action>
-std::string error_line(const Action& action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "no error";
-}
-
 }  // namespace parallax
