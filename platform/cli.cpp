@@ -83,7 +83,8 @@ int run_command_line(int argc, const char* const* argv) {
 
 int run_command_line(int argc, const char* const* argv, std::ostream& out, std::ostream& err) {
   CLI::App app("A SystemC model of an FPGA that turns stereo image pairs into disparity maps.", "parallax");
-  app.set_version_flag("--version", fmt::format("parallax {} ({})", version(), revision()), "Print the version");
+  app.set_version_flag("--version", fmt::format("parallax {} ({})", version(), revision()),
+                       "Print the version");
   app.set_help_all_flag("--help-all", "Print the help of all commands");
   bool quiet = false, verbose = false;
   app.add_flag("-q,--quiet", quiet, "Print errors only");

@@ -18,7 +18,8 @@ struct FrameResultOptions {
 };
 
 /// Adds the files of one frame to `folder`, under `prefix` ("" or "frame_0000/"); the caller publishes them:
-/// disparity.png, disparity_color.png, causes.png, cause_labels.png, left_rectified.png, disparity.bin, points.ply.
+/// disparity.png, disparity_color.png, causes.png, cause_labels.png, left_rectified.png, disparity.bin,
+/// points.ply.
 void write_frame(OutputFolder& folder, const std::string& prefix, const cv::Mat& left,
                  const std::vector<Disparity>& disparities, const FrameResultOptions& options);
 

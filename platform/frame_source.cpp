@@ -33,7 +33,8 @@ Calibration calibration_of(const SceneCalibration& scene) {
 
 class SceneSource final : public FrameSource {
  public:
-  SceneSource(const SceneConfig& config, std::int64_t frames) : config_(config), scene_(config), frames_(frames) {}
+  SceneSource(const SceneConfig& config, std::int64_t frames)
+      : config_(config), scene_(config), frames_(frames) {}
 
   std::int64_t frames() const override { return frames_; }
   int width() const override { return config_.width; }
@@ -59,17 +60,19 @@ class SceneSource final : public FrameSource {
 
 class FileSource final : public FrameSource {
  public:
-  FileSource(std::vector<ImagePair> pairs, const ImageLimits& limits, std::int64_t limit, std::string ground_truth,
-             std::string mask, NoticeSink notice)
+  FileSource(std::vector<ImagePair> pairs, const ImageLimits& limits, std::int64_t limit,
+             std::string ground_truth, std::string mask, NoticeSink notice)
       : input_(std::move(pairs), limits, std::move(notice)),
         frames_(static_cast<std::int64_t>(input_.frames())),
         ground_truth_(std::move(ground_truth)),
         mask_(std::move(mask)) {
     if (limit > 0) frames_ = std::min(frames_, limit);
     if (!ground_truth_.empty() && frames_ > 1) {
-      throw UserError(fmt::format("--ground-truth is for one pair, but the input has {} frames; add --frames 1", frames_));
+      throw UserError(fmt::format(
+          "--ground-truth is for one pair, but the input has {} frames; add --frames 1", frames_));
     }
-    if (!ground_truth_.empty()) truth_ = read_ground_truth(ground_truth_, mask_, input_.width(), input_.height());
+    if (!ground_truth_.empty())
+      truth_ = read_ground_truth(ground_truth_, mask_, input_.width(), input_.height());
   }
 
   std::int64_t frames() const override { return frames_; }
@@ -94,8 +97,9 @@ std::unique_ptr<FrameSource> scene_source(const SceneConfig& config, std::int64_
   return std::make_unique<SceneSource>(config, frames);
 }
 
-std::unique_ptr<FrameSource> file_source(std::vector<ImagePair> pairs, const ImageLimits& limits, std::int64_t limit,
-                                         const std::string& ground_truth, const std::string& mask, NoticeSink notice) {
+std::unique_ptr<FrameSource> file_source(std::vector<ImagePair> pairs, const ImageLimits& limits,
+                                         std::int64_t limit, const std::string& ground_truth,
+                                         const std::string& mask, NoticeSink notice) {
   return std::make_unique<FileSource>(std::move(pairs), limits, limit, ground_truth, mask, std::move(notice));
 }
 

@@ -34,8 +34,10 @@ class FrameSource {
 /// `frames`: how many frames of the endless scene.
 std::unique_ptr<FrameSource> scene_source(const SceneConfig& config, std::int64_t frames);
 
-/// `ground_truth`, `mask`: paths, empty for none; only for a single pair. `limit`: how many of the frames, 0 = all.
-std::unique_ptr<FrameSource> file_source(std::vector<ImagePair> pairs, const ImageLimits& limits, std::int64_t limit,
-                                         const std::string& ground_truth, const std::string& mask, NoticeSink notice);
+/// `ground_truth`, `mask`: paths, empty for none; only for a single pair. `limit`: how many of the frames, 0
+/// = all.
+std::unique_ptr<FrameSource> file_source(std::vector<ImagePair> pairs, const ImageLimits& limits,
+                                         std::int64_t limit, const std::string& ground_truth,
+                                         const std::string& mask, NoticeSink notice);
 
 }  // namespace parallax

@@ -26,8 +26,8 @@ RectificationMap padded(const RectificationMap& map, const cv::Size& size) {
 RectificationMap map_of_file(const std::string& path, const OffsetRange& range, const FrameSource& source) {
   const EncodedMap encoded = read_map_file(path);
   if (encoded.width != source.width() || encoded.height != source.height()) {
-    throw UserError(fmt::format("{}: a map of {}x{} px, but the images have {}x{}", path, encoded.width, encoded.height,
-                                source.width(), source.height()));
+    throw UserError(fmt::format("{}: a map of {}x{} px, but the images have {}x{}", path, encoded.width,
+                                encoded.height, source.width(), source.height()));
   }
   if (!(encoded.range == range)) {
     throw UserError(fmt::format(
@@ -58,8 +58,9 @@ Calibration given_calibration(const RunOptions& options, const OffsetRange& rang
 
 }  // namespace
 
-RectificationChoice choose_rectification(const RunOptions& options, const OffsetRange& range, const FrameSource& source,
-                                         const cv::Size& processed, const NoticeSink& notice) {
+RectificationChoice choose_rectification(const RunOptions& options, const OffsetRange& range,
+                                         const FrameSource& source, const cv::Size& processed,
+                                         const NoticeSink& notice) {
   std::optional<Calibration> calibration = source.calibration();
   if (!options.calibration.empty()) calibration = given_calibration(options, range, source, notice);
   RectificationChoice choice;

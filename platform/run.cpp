@@ -34,14 +34,16 @@ ImageLimits limits(const MachineConfig& config) {
 
 std::unique_ptr<FrameSource> scene(const RunOptions& options, const MachineConfig& config) {
   if (!options.ground_truth.empty() || !options.mask.empty()) {
-    throw UserError("--ground-truth and --mask go with --left and --right; the built-in scene brings its own");
+    throw UserError(
+        "--ground-truth and --mask go with --left and --right; the built-in scene brings its own");
   }
   SceneConfig scene_config = options.scene;
   if (config.image.width != 0) scene_config.width = static_cast<int>(config.image.width);
   if (config.image.height != 0) scene_config.height = static_cast<int>(config.image.height);
   if (!options.size.empty()) {
     char rest = 0;
-    if (std::sscanf(options.size.c_str(), "%5dx%5d%c", &scene_config.width, &scene_config.height, &rest) != 2) {
+    if (std::sscanf(options.size.c_str(), "%5dx%5d%c", &scene_config.width, &scene_config.height, &rest) !=
+        2) {
       throw UserError(fmt::format("--size: '{}' is not a size such as 640x480", options.size));
     }
   }
@@ -58,8 +60,10 @@ std::unique_ptr<FrameSource> open_source(const RunOptions& options, const Machin
     throw UserError(fmt::format("{} is missing: a pair needs --left and --right",
                                 options.left.empty() ? "--left" : "--right"));
   }
-  if (!options.left.empty() && !options.input.empty()) throw UserError("--input and --left/--right exclude each other");
-  if (options.frames < 0) throw UserError(fmt::format("--frames is {}, allowed is 1 and more", options.frames));
+  if (!options.left.empty() && !options.input.empty())
+    throw UserError("--input and --left/--right exclude each other");
+  if (options.frames < 0)
+    throw UserError(fmt::format("--frames is {}, allowed is 1 and more", options.frames));
   if (options.timing_frames < 1) {
     throw UserError(fmt::format("--timing-frames is {}, allowed is 1 and more", options.timing_frames));
   }
@@ -74,11 +78,12 @@ std::unique_ptr<FrameSource> open_source(const RunOptions& options, const Machin
   }
   std::vector<ImagePair> pairs = options.input.empty() ? std::vector<ImagePair>{{options.left, options.right}}
                                                        : find_image_pairs(options.input);
-  auto source =
-      file_source(std::move(pairs), limits(config), options.frames, options.ground_truth, options.mask, notice);
+  auto source = file_source(std::move(pairs), limits(config), options.frames, options.ground_truth,
+                            options.mask, notice);
   const auto demand = [&](const char* key, std::uint32_t wanted, int found) {
     if (wanted != 0 && static_cast<int>(wanted) != found) {
-      throw UserError(fmt::format("{} = {}, but {} has {} px; 0 takes it from the images", key, wanted, source->name(), found));
+      throw UserError(fmt::format("{} = {}, but {} has {} px; 0 takes it from the images", key, wanted,
+                                  source->name(), found));
     }
   };
   demand("image.width", config.image.width, source->width());
@@ -99,8 +104,8 @@ class Run {
                      static_cast<int>(configuration_.machine.image.height_granularity)},
         size_(source_->width(), source_->height()),
         padded_(padded_size(size_, granularity_)),
-        rectification_(choose_rectification(options, configuration_.machine.rectification.range, *source_, padded_,
-                                            notice_)),
+        rectification_(choose_rectification(options, configuration_.machine.rectification.range, *source_,
+                                            padded_, notice_)),
         total_frames_(std::max(source_->frames(), options.timing_frames)) {
     if (const std::string line = padding_notice(size_, granularity_); !line.empty()) note(line);
     if (!options.out.empty()) folder_ = std::make_unique<OutputFolder>(options.out);
@@ -112,7 +117,8 @@ class Run {
   int execute() {
     const auto began = std::chrono::steady_clock::now();
     progress_ = std::make_unique<Progress>(
-        context_.err, context_.verbosity != Verbosity::kQuiet && standard_error_is_terminal(), "frames", total_frames_);
+        context_.err, context_.verbosity != Verbosity::kQuiet && standard_error_is_terminal(), "frames",
+        total_frames_);
     MachineInput input;
     input.width = padded_.width;
     input.height = padded_.height;
@@ -166,7 +172,8 @@ class Run {
     const std::vector<Disparity> disparities = crop_disparities(result.disparities, padded_.width, size_);
     ++totals_.frames;
     totals_.pixels += size_.area();
-    totals_.valid += std::count_if(disparities.begin(), disparities.end(), [](const Disparity& d) { return d.valid(); });
+    totals_.valid +=
+        std::count_if(disparities.begin(), disparities.end(), [](const Disparity& d) { return d.valid(); });
     if (const auto truth = source_->truth(result.index)) {
       totals_.has_truth = true;
       totals_.evaluation += evaluate(disparities, size_.width, *truth);
@@ -197,7 +204,8 @@ class Run {
   int stuck(const Machine& machine) {
     const std::vector<Wait> cycle = machine.dataflow().deadlock();
     if (!cycle.empty()) {
-      context_.err << "parallax: error: the machine is deadlocked; nobody in this circle can go on:\n" << describe(cycle);
+      context_.err << "parallax: error: the machine is deadlocked; nobody in this circle can go on:\n"
+                   << describe(cycle);
     } else {
       context_.err << "parallax: error: the machine stopped before the host had all frames; these wait:\n"
                    << describe(machine.dataflow().waits());

@@ -13,7 +13,8 @@ namespace parallax {
 void add_run_command(CLI::App& app, CommandContext& context) {
   const auto options = std::make_shared<RunOptions>();
   CLI::App& command = *app.add_subcommand(
-      "run", "Stereo pairs through the whole machine: disparity maps and timing. Without input: the built-in scene");
+      "run",
+      "Stereo pairs through the whole machine: disparity maps and timing. Without input: the built-in scene");
   command.option_defaults()->take_last();
 
   command.add_option("--left", options->left, "Left image")->type_name("FILE")->group("Input");
@@ -23,13 +24,18 @@ void add_run_command(CLI::App& app, CommandContext& context) {
                   "A sequence: a folder of pairs, or a list file with two paths a line")
       ->type_name("PATH")
       ->group("Input");
-  command.add_option("--frames", options->frames, "At most so many frames of a sequence; frames of the built-in scene")
+  command
+      .add_option("--frames", options->frames,
+                  "At most so many frames of a sequence; frames of the built-in scene")
       ->group("Input");
   command.add_option("--size", options->size, "Size of the built-in scene, 640x480 if not given")
       ->type_name("WxH")
       ->group("Input");
-  command.add_option("--seed", options->scene.seed, "Seed of the built-in scene")->capture_default_str()->group("Input");
-  command.add_flag("--rectified", options->rectified, "Built-in scene without lens distortion")->group("Input");
+  command.add_option("--seed", options->scene.seed, "Seed of the built-in scene")
+      ->capture_default_str()
+      ->group("Input");
+  command.add_flag("--rectified", options->rectified, "Built-in scene without lens distortion")
+      ->group("Input");
   command
       .add_option("--ground-truth", options->ground_truth,
                   "True disparities of a pair: 16-bit PNG, disparity * 256, 0 = unknown")
@@ -45,10 +51,13 @@ void add_run_command(CLI::App& app, CommandContext& context) {
       ->type_name("FILE")
       ->take_all()
       ->group("Rectification");
-  command.add_option("--map", options->map, "The images are not rectified: compressed map of `parallax map encode`")
+  command
+      .add_option("--map", options->map,
+                  "The images are not rectified: compressed map of `parallax map encode`")
       ->type_name("FILE")
       ->group("Rectification");
-  command.add_flag("--fit", options->fit, "Zoom and shift the rectified images until the offsets fit the window")
+  command
+      .add_flag("--fit", options->fit, "Zoom and shift the rectified images until the offsets fit the window")
       ->group("Rectification");
 
   command.add_option("--out", options->out, "Folder for the results; without it only the summary is printed")
@@ -62,9 +71,8 @@ void add_run_command(CLI::App& app, CommandContext& context) {
       ->group("Output");
   add_json_option(command, options->json);
   add_configuration_options(command, options->configuration);
-  command.callback([options, &context] {
-    context.action = [options, &context] { return run(*options, context); };
-  });
+  command.callback(
+      [options, &context] { context.action = [options, &context] { return run(*options, context); }; });
 }
 
 }  // namespace parallax

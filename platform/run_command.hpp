@@ -9,7 +9,8 @@ namespace parallax {
 
 struct CommandContext;
 
-/// `parallax run`: stereo pairs through the whole machine; writes disparity maps and `timing.json`, prints a summary.
+/// `parallax run`: stereo pairs through the whole machine; writes disparity maps and `timing.json`, prints a
+/// summary.
 void add_run_command(CLI::App& app, CommandContext& context);
 
 }  // namespace parallax

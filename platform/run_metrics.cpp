@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 
 #include "platform/version.hpp"
 
@@ -28,7 +29,8 @@ Window steady_window(const std::vector<FrameTimes>& times) {
     window.period = seconds(times[window.last].at_host - times[window.first].at_host) /
                     static_cast<double>(window.last - window.first);
   }
-  window.text = window.period == 0 ? "frame 1" : fmt::format("frames {} to {}", window.first + 1, window.last + 1);
+  window.text =
+      window.period == 0 ? "frame 1" : fmt::format("frames {} to {}", window.first + 1, window.last + 1);
   return window;
 }
 
@@ -47,17 +49,32 @@ std::vector<Load> loads(const Machine& machine) {
     all.push_back({info.stage->basename(), info.stage->clock().seconds(cycles), "clocks.core_hz"});
   }
   Cycles bus;
-  for (std::size_t port = 0; port < machine.memory().ports(); ++port) bus += machine.memory().statistics(port).bus;
+  for (std::size_t port = 0; port < machine.memory().ports(); ++port)
+    bus += machine.memory().statistics(port).bus;
   all.push_back({"memory", machine.memory().clock().seconds(bus) / frames, "memory.bytes_per_cycle"});
   if (machine.config().link.enabled) {
-    all.push_back({"link", machine.link_clock().seconds(machine.link().wire_busy()) / frames, "link.line_rate"});
-    all.push_back({"host", machine.link_clock().seconds(machine.link().host_busy()) / frames, "link.host_pixel_rate"});
+    all.push_back(
+        {"link", machine.link_clock().seconds(machine.link().wire_busy()) / frames, "link.line_rate"});
+    all.push_back(
+        {"host", machine.link_clock().seconds(machine.link().host_busy()) / frames, "link.host_pixel_rate"});
   }
-  all.push_back({"camera", machine.camera_clock().seconds(machine.sensor().frame_time()), "clocks.camera_hz"});
+  all.push_back(
+      {"camera", machine.camera_clock().seconds(machine.sensor().frame_time()), "clocks.camera_hz"});
   if (machine.config().camera.frame_rate > 0) {
     all.push_back({"camera_frame_rate", 1.0 / machine.config().camera.frame_rate, "camera.frame_rate"});
   }
   return all;
+}
+
+// Stages that a slower one upstream feeds run at its pace; those within this share of the largest load count
+// as one.
+constexpr double kSamePace = 0.99;
+
+// The part that limits: of all at the pace of the busiest one, the first that the data meets.
+Load most_upstream_limit(const std::vector<Load>& all) {
+  double largest = 0;
+  for (const Load& load : all) largest = std::max(largest, load.busy);
+  return *std::find_if(all.begin(), all.end(), [&](const Load& l) { return l.busy >= kSamePace * largest; });
 }
 
 void add_performance(MetricGroup& root, const Machine& machine, const Window& window) {
@@ -65,8 +82,8 @@ void add_performance(MetricGroup& root, const Machine& machine, const Window& wi
   const double fps = window.period > 0 ? 1.0 / window.period : 0;
   const int range = machine.config().matching.range().count;
   MetricGroup& group = root.group("performance");
-  group.add({"frame_rate", fps, "frames/s", "Steady-state rate at which the host receives frames; 0 for a single frame.",
-             window.text});
+  group.add({"frame_rate", fps, "frames/s",
+             "Steady-state rate at which the host receives frames; 0 for a single frame.", window.text});
   group.add({"disparities_per_second", fps * pixels, "1/s", "Frame rate times pixels of the processed image.",
              window.text});
   group.add({"evaluations_per_second", fps * pixels * range, "1/s",
@@ -88,29 +105,36 @@ void add_latency(MetricGroup& root, const Machine& machine, const Window& window
     group.add({std::string(name) + "_largest", largest, "ms", description, window.text});
   };
   MetricGroup& group = root.group("latency");
-  add(group, "first_pixel", "From the frame complete in memory to its first disparity out of the last filter.",
+  add(group, "first_pixel",
+      "From the frame complete in memory to its first disparity out of the last filter.",
       &FrameTimes::in_memory, &FrameTimes::first_disparity);
   add(group, "last_pixel", "From the frame complete in memory to its last disparity out of the last filter.",
       &FrameTimes::in_memory, &FrameTimes::last_disparity);
-  add(group, "exposure_to_host", "From the end of exposure to the frame's last bit at the host.", &FrameTimes::exposed,
-      &FrameTimes::at_host);
+  add(group, "exposure_to_host", "From the end of exposure to the frame's last bit at the host.",
+      &FrameTimes::exposed, &FrameTimes::at_host);
 }
 
 void add_limit(MetricGroup& root, const Machine& machine, const Window& window) {
   std::vector<Load> all = loads(machine);
+  const Load limit = most_upstream_limit(all);
+  std::vector<Load> others;
+  std::copy_if(all.begin(), all.end(), std::back_inserter(others),
+               [&](const Load& l) { return l.busy < kSamePace * limit.busy; });
+  const Load next = most_upstream_limit(others);
   std::stable_sort(all.begin(), all.end(), [](const Load& a, const Load& b) { return a.busy > b.busy; });
   MetricGroup& group = root.group("limit");
-  group.add({"part", all[0].part, "", "The part that is at work for the largest share of a frame's period.", window.text});
-  group.add({"key", all[0].remedy, "", "The configuration key that moves this limit.", window.text});
-  const double period = window.period > 0 ? window.period : all[0].busy;
-  group.add({"utilisation", 100.0 * all[0].busy / period, "%", "Share of the frame period in which it is at work.",
+  group.add({"part", limit.part, "", "The part that is at work for the largest share of a frame's period.",
              window.text});
-  group.add({"next_part", all[1].part, "", "The part that would limit next.", window.text});
-  group.add({"next_frame_rate", 1.0 / all[1].busy, "frames/s", "The rate at which it would.", window.text});
+  group.add({"key", limit.remedy, "", "The configuration key that moves this limit.", window.text});
+  const double period = window.period > 0 ? window.period : limit.busy;
+  group.add({"utilisation", 100.0 * limit.busy / period, "%",
+             "Share of the frame period in which it is at work.", window.text});
+  group.add({"next_part", next.part, "", "The part that would limit next.", window.text});
+  group.add({"next_frame_rate", 1.0 / next.busy, "frames/s", "The rate at which it would.", window.text});
   MetricGroup& parts = group.group("utilisation_by_part");
   for (const Load& load : all) {
-    parts.add({load.part, 100.0 * load.busy / period, "%", "Share of the frame period in which the part is at work.",
-               window.text});
+    parts.add({load.part, 100.0 * load.busy / period, "%",
+               "Share of the frame period in which the part is at work.", window.text});
   }
 }
 
@@ -128,17 +152,21 @@ void add_memory(MetricGroup& root, const Machine& machine, const Window& window)
     total += rate;
     group.add({"bytes_per_frame", bytes, "B", "Bytes through the port, a frame.", all});
     group.add({"bandwidth", rate / 1e6, "MB/s", "Bytes a frame times frame rate.", window.text});
-    group.add({"share", 100.0 * rate / model.usable_bandwidth(), "%", "Of the memory's usable bandwidth.", window.text});
+    group.add({"share", 100.0 * rate / model.usable_bandwidth(), "%", "Of the memory's usable bandwidth.",
+               window.text});
     const double requests = std::max(1.0, static_cast<double>(port.requests));
-    group.add({"latency_mean", seconds(port.latency_sum) / requests * 1e9, "ns", "From request to answer of a burst.", all});
-    group.add({"latency_largest", seconds(port.latency_largest) * 1e9, "ns", "From request to answer of a burst.", all});
+    group.add({"latency_mean", seconds(port.latency_sum) / requests * 1e9, "ns",
+               "From request to answer of a burst.", all});
+    group.add({"latency_largest", seconds(port.latency_largest) * 1e9, "ns",
+               "From request to answer of a burst.", all});
   }
   const EncodedMap& map = *machine.input().map;
   memory.group("map").add({"bytes_per_pixel_and_image", map.bytes_per_pixel(), "B",
                            "Compressed size of the rectification map by pixels of both images.", ""});
   memory.add({"bandwidth", total / 1e6, "MB/s", "Of all ports together.", window.text});
   memory.add({"usable_bandwidth", model.usable_bandwidth() / 1e6, "MB/s", "Peak times efficiency.", ""});
-  memory.add({"share", 100.0 * total / model.usable_bandwidth(), "%", "Of the usable bandwidth.", window.text});
+  memory.add(
+      {"share", 100.0 * total / model.usable_bandwidth(), "%", "Of the usable bandwidth.", window.text});
 }
 
 void add_pipeline(MetricGroup& root, const Machine& machine, const Window& window) {
@@ -148,9 +176,11 @@ void add_pipeline(MetricGroup& root, const Machine& machine, const Window& windo
     const StageStatistics& s = info.stage->statistics();
     MetricGroup& group = stages.group(info.stage->basename());
     const double cycles = static_cast<double>(info.stage->schedule().cycles());
-    group.add({"cycles_per_frame", cycles, "cycles", "Cycles of a frame without any wait, by the declared intervals.", ""});
+    group.add({"cycles_per_frame", cycles, "cycles",
+               "Cycles of a frame without any wait, by the declared intervals.", ""});
     const double period = window.period * static_cast<double>(info.stage->clock().frequency().count());
-    group.add({"utilisation", period > 0 ? 100.0 * cycles / period : 0.0, "%", "Of the frame period.", window.text});
+    group.add({"utilisation", period > 0 ? 100.0 * cycles / period : 0.0, "%", "Of the frame period.",
+               window.text});
     group.add({"busy", s.busy.count(), "cycles", "At work with a token on some port.", all});
     group.add({"idle", s.idle.count(), "cycles", "Declared row and frame overhead.", all});
     group.add({"starved", s.starved.count(), "cycles", "Held back by an empty input.", all});
@@ -165,8 +195,10 @@ void add_pipeline(MetricGroup& root, const Machine& machine, const Window& windo
     group.add({"width", stream->width().count(), "bit", "Of a token.", ""});
     group.add({"tokens", static_cast<std::int64_t>(s.written), "tokens", "Written.", all});
     group.add({"high_water", static_cast<std::int64_t>(s.high_water), "tokens", "Largest number held.", all});
-    group.add({"blocked_on_full", s.blocked_on_full.count(), "cycles", "Writer's cycles lost to a full FIFO.", all});
-    group.add({"starved_on_empty", s.starved_on_empty.count(), "cycles", "Reader's cycles lost to an empty FIFO.", all});
+    group.add({"blocked_on_full", s.blocked_on_full.count(), "cycles", "Writer's cycles lost to a full FIFO.",
+               all});
+    group.add({"starved_on_empty", s.starved_on_empty.count(), "cycles",
+               "Reader's cycles lost to an empty FIFO.", all});
   }
 }
 
@@ -181,14 +213,16 @@ MetricGroup measure(const Machine& machine, const RunTotals& totals, int image_w
   run.add({"version", std::string(version()), "", "Of the model.", ""});
   run.add({"revision", std::string(revision()), "", "Git revision that the model was built from.", ""});
   run.add({"wall_time", totals.wall_seconds, "s", "Time that the run took on this computer.", ""});
-  run.add({"simulated_time", seconds(machine.times().back().at_host), "s", "Time of the modelled machine.", ""});
+  run.add(
+      {"simulated_time", seconds(machine.times().back().at_host), "s", "Time of the modelled machine.", ""});
   run.add({"peak_memory", totals.peak_megabytes, "MB", "Largest resident size of the program.", ""});
 
   MetricGroup& input = root.group("input");
   input.add({"width", std::int64_t{image_width}, "px", "Of the images as given.", ""});
   input.add({"height", std::int64_t{image_height}, "px", "Of the images as given.", ""});
   input.add({"processed_width", std::int64_t{machine.input().width}, "px", "Padded to the granularity.", ""});
-  input.add({"processed_height", std::int64_t{machine.input().height}, "px", "Padded to the granularity.", ""});
+  input.add(
+      {"processed_height", std::int64_t{machine.input().height}, "px", "Padded to the granularity.", ""});
   const DisparityRange range = machine.config().matching.range();
   input.add({"disparity_range", std::int64_t{range.count}, "px", "Number of disparities searched.", ""});
   input.add({"disparity_offset", std::int64_t{range.offset}, "px", "Smallest disparity searched.", ""});
@@ -203,7 +237,8 @@ MetricGroup measure(const Machine& machine, const RunTotals& totals, int image_w
 
   MetricGroup& quality = root.group("quality");
   if (totals.pixels > 0) {
-    quality.add({"valid_share", 100.0 * static_cast<double>(totals.valid) / static_cast<double>(totals.pixels), "%",
+    quality.add({"valid_share",
+                 100.0 * static_cast<double>(totals.valid) / static_cast<double>(totals.pixels), "%",
                  "Pixels of the image that have a disparity.", with_images});
   }
   if (totals.has_truth) {

@@ -20,8 +20,8 @@ struct RunTotals {
   double peak_megabytes = 0;
 };
 
-/// Everything that `timing.json` and the summary say of a run: "run", "input", "performance", "latency", "limit",
-/// "memory", "stages", "streams", "quality".
+/// Everything that `timing.json` and the summary say of a run: "run", "input", "performance", "latency",
+/// "limit", "memory", "stages", "streams", "quality".
 MetricGroup measure(const Machine& machine, const RunTotals& totals, int image_width, int image_height);
 
 /// The summary that a person reads, from that tree.

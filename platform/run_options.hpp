@@ -18,10 +18,10 @@ struct RunOptions {
   std::string left;
   std::string right;
   std::string input;
-  std::string size;           ///< WxH of the built-in scene
+  std::string size;  ///< WxH of the built-in scene
   SceneConfig scene;
-  bool rectified = false;     ///< the built-in scene without distortion
-  std::int64_t frames = 0;    ///< 0: all of the input; one of the scene
+  bool rectified = false;   ///< the built-in scene without distortion
+  std::int64_t frames = 0;  ///< 0: all of the input; one of the scene
   std::int64_t timing_frames = 4;
   std::string ground_truth;
   std::string mask;

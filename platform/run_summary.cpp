@@ -22,10 +22,10 @@ std::string memory_lines(const MetricGroup& m) {
   for (const char* port : Machine::port_names()) {
     const std::string path = std::string("memory/") + port + "/";
     const std::string name = std::string(port) == "map" ? "rectification map" : port;
-    text += fmt::format("  {:<18}{:>9.1f} MB/s {:>6.2f} %   {:>9.0f} B a frame, latency {:>4.0f} ns mean, {:>5.0f} largest\n",
-                        name, number(m, path + "bandwidth"), number(m, path + "share"),
-                        number(m, path + "bytes_per_frame"), number(m, path + "latency_mean"),
-                        number(m, path + "latency_largest"));
+    text += fmt::format(
+        "  {:<18}{:>9.1f} MB/s {:>6.2f} %   {:>9.0f} B a frame, latency {:>4.0f} ns mean, {:>5.0f} largest\n",
+        name, number(m, path + "bandwidth"), number(m, path + "share"), number(m, path + "bytes_per_frame"),
+        number(m, path + "latency_mean"), number(m, path + "latency_largest"));
   }
   return text;
 }
@@ -37,7 +37,8 @@ std::string quality_lines(const MetricGroup& m) {
     text += fmt::format("valid pixels        {:.1f} % of the image\n", number(m, "quality/valid_share"));
     if (group.metrics.size() == 1) continue;
     text += fmt::format(
-        "ground truth        coverage {:.1f} %, bad-1 {:.2f} %, bad-2 {:.2f} %, bad-3 {:.2f} %, mean error {:.3f} px\n",
+        "ground truth        coverage {:.1f} %, bad-1 {:.2f} %, bad-2 {:.2f} %, bad-3 {:.2f} %, mean error "
+        "{:.3f} px\n",
         number(m, "quality/coverage"), number(m, "quality/bad_1"), number(m, "quality/bad_2"),
         number(m, "quality/bad_3"), number(m, "quality/mean_error"));
   }
@@ -51,10 +52,13 @@ std::string summary(const MetricGroup& m) {
   const auto count = [&m](const char* path) { return static_cast<std::int64_t>(number(m, path)); };
   const std::int64_t offset = count("input/disparity_offset");
   text += fmt::format("image               {} x {} px", count("input/width"), count("input/height"));
-  if (count("input/width") != count("input/processed_width") || count("input/height") != count("input/processed_height")) {
-    text += fmt::format(", processed as {} x {}", count("input/processed_width"), count("input/processed_height"));
+  if (count("input/width") != count("input/processed_width") ||
+      count("input/height") != count("input/processed_height")) {
+    text += fmt::format(", processed as {} x {}", count("input/processed_width"),
+                        count("input/processed_height"));
   }
-  text += fmt::format("\ndisparity range     {} to {} px\n", offset, offset + count("input/disparity_range") - 1);
+  text +=
+      fmt::format("\ndisparity range     {} to {} px\n", offset, offset + count("input/disparity_range") - 1);
   const std::string window = m.at("performance/frame_rate").window;
   if (const double fps = number(m, "performance/frame_rate"); fps > 0) {
     text += fmt::format("frame rate          {:.2f} fps steady state ({})\n", fps, window);
@@ -62,15 +66,18 @@ std::string summary(const MetricGroup& m) {
                         number(m, "performance/evaluations_per_second") / 1e9,
                         number(m, "performance/disparities_per_second") / 1e6);
   }
-  text += fmt::format("latency             {:.3f} ms to the first pixel, {:.3f} ms to the last, from frame in memory\n",
-                      number(m, "latency/first_pixel_mean"), number(m, "latency/last_pixel_mean"));
+  text += fmt::format(
+      "latency             {:.3f} ms to the first pixel, {:.3f} ms to the last, from frame in memory\n",
+      number(m, "latency/first_pixel_mean"), number(m, "latency/last_pixel_mean"));
   text += fmt::format("                    {:.3f} ms from exposure to the host, first frame {:.3f} ms\n",
-                      number(m, "latency/exposure_to_host_mean"), number(m, "latency/exposure_to_host_first_frame"));
-  text += fmt::format("limit               {} at {:.1f} % of the time ({}); next {} at {:.1f} fps\n", word(m, "limit/part"),
-                      number(m, "limit/utilisation"), word(m, "limit/key"), word(m, "limit/next_part"),
-                      number(m, "limit/next_frame_rate"));
-  text += fmt::format("memory              {:.1f} of {:.0f} MB/s usable, {:.1f} %\n", number(m, "memory/bandwidth"),
-                      number(m, "memory/usable_bandwidth"), number(m, "memory/share"));
+                      number(m, "latency/exposure_to_host_mean"),
+                      number(m, "latency/exposure_to_host_first_frame"));
+  text += fmt::format("limit               {} at {:.1f} % of the time ({}); next {} at {:.1f} fps\n",
+                      word(m, "limit/part"), number(m, "limit/utilisation"), word(m, "limit/key"),
+                      word(m, "limit/next_part"), number(m, "limit/next_frame_rate"));
+  text += fmt::format("memory              {:.1f} of {:.0f} MB/s usable, {:.1f} %\n",
+                      number(m, "memory/bandwidth"), number(m, "memory/usable_bandwidth"),
+                      number(m, "memory/share"));
   text += memory_lines(m);
   text += fmt::format("                    the map takes {:.3f} B per pixel and image\n",
                       number(m, "memory/map/bytes_per_pixel_and_image"));

@@ -30,7 +30,8 @@ struct MetricGroup {
   const Metric& at(const std::string& path) const;
 };
 
-/// A group is an object of its metrics and groups; a metric is an object of value, unit, description and window.
+/// A group is an object of its metrics and groups; a metric is an object of value, unit, description and
+/// window.
 nlohmann::ordered_json to_json(const MetricGroup& group);
 
 }  // namespace parallax
