@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 
-#include "modules/atomic_file.hpp"
 #include "modules/map_decoder.hpp"
 #include "tlm/error.hpp"
 
@@ -171,12 +170,5 @@ EncodedMap from_file_bytes(const std::vector<std::uint8_t>& bytes, const std::st
   map.bytes.assign(bytes.begin() + static_cast<std::ptrdiff_t>(rows_at), bytes.end());
   return map;
 }
-
-void write_map_file(const std::string& path, const EncodedMap& map) {
-  const std::vector<std::uint8_t> bytes = to_file_bytes(map);
-  write_file(path, bytes.data(), bytes.size());
-}
-
-EncodedMap read_map_file(const std::string& path) { return from_file_bytes(read_file(path), path); }
 
 }  // namespace parallax

@@ -16,10 +16,4 @@ std::vector<std::uint8_t> to_file_bytes(const EncodedMap& map);
 /// rows are not decoded.
 EncodedMap from_file_bytes(const std::vector<std::uint8_t>& bytes, const std::string& name);
 
-/// Appears complete or not at all; throws UserError when it cannot be written.
-void write_map_file(const std::string& path, const EncodedMap& map);
-
-/// Throws UserError when the file cannot be read, is truncated or corrupt.
-EncodedMap read_map_file(const std::string& path);
-
 }  // namespace parallax

@@ -4,8 +4,11 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <exception>
 #include <iostream>
+#include <new>
 #include <string>
+#include <systemc>
 #include <vector>
 
 #include "platform/command_context.hpp"
@@ -21,6 +24,7 @@ namespace parallax {
 namespace {
 
 constexpr int kBadInput = 2;
+constexpr int kInternalError = 3;
 
 /// What could have been written where `word` stands: the options, or the commands.
 std::vector<std::string> alternatives(const CLI::App& app, const std::string& word) {
@@ -60,6 +64,30 @@ int fail(std::ostream& err, const std::string& line) {
   return kBadInput;
 }
 
+// A fault that no input should be able to cause: one line, never an abort.
+int fail_internally(std::ostream& err, const std::string& line) {
+  err << "parallax: internal error: " << one_line(line) << '\n';
+  return kInternalError;
+}
+
+// Quoted for a shell where need be.
+std::string command_line(int argc, const char* const* argv) {
+  constexpr const char* kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./,:@%";
+  std::string line = "parallax";
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    line += ' ';
+    if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) {
+      line += word;
+      continue;
+    }
+    line += '\'';
+    for (const char c : word) line += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    line += '\'';
+  }
+  return line;
+}
+
 /// Throws UserError with one line, or returns true when help or version was asked for and printed.
 bool parse(CLI::App& app, int argc, const char* const* argv, std::ostream& out) {
   try {
@@ -87,27 +115,32 @@ int run_command_line(int argc, const char* const* argv, std::ostream& out, std::
                        "Print the version");
   app.set_help_all_flag("--help-all", "Print the help of all commands");
   bool quiet = false, verbose = false;
-  app.add_flag("-q,--quiet", quiet, "Print errors only");
+  app.add_flag("-q,--quiet", quiet, "Print errors only, and what was asked for (--json)");
   app.add_flag("-v,--verbose", verbose, "Print more")->excludes("--quiet");
   app.fallthrough();  // the options above may follow the command
 
-  CommandContext context{out, err};
+  CommandContext context{out, err, command_line(argc, argv)};
   add_run_command(app, context);
   add_config_command(app, context);
-  add_map_command(app);
-  add_scene_command(app, context.action);
+  add_map_command(app, context);
+  add_scene_command(app, context);
 
   try {
     if (parse(app, argc, argv, out)) return 0;
     if (quiet) context.verbosity = Verbosity::kQuiet;
     if (verbose) context.verbosity = Verbosity::kVerbose;
-    if (!context.action && app.got_subcommand("map")) return 0;
     if (!context.action) throw UserError("no command given; parallax --help lists them");
     const int code = context.action();
     if (!out.flush()) throw UserError("cannot write to standard output");
     return code;
   } catch (const UserError& error) {
     return fail(err, error.what());
+  } catch (const sc_core::sc_report& report) {
+    return fail_internally(err, fmt::format("{}: {}", report.get_msg_type(), report.get_msg()));
+  } catch (const std::bad_alloc&) {
+    return fail_internally(err, "out of memory");
+  } catch (const std::exception& error) {
+    return fail_internally(err, error.what());
   }
 }
 

@@ -6,7 +6,8 @@
 namespace parallax {
 
 /// The command line. Returns the exit code: 0 done and within budget; 1 the model ran and a check or budget
-/// failed; 2 bad input or configuration, with one line on standard error.
+/// failed; 2 bad input or configuration; 3 a fault of the program itself; 128 + the signal's number
+/// when the run was interrupted (130 for Ctrl-C). 2 and 3 come with one line on standard error.
 int run_command_line(int argc, const char* const* argv);
 
 /// The same with other streams in place of standard output and standard error.

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <ostream>
+#include <string>
 
 namespace parallax {
 
@@ -11,8 +12,9 @@ enum class Verbosity { kQuiet, kNormal, kVerbose };
 /// What the command line hands to a command. A command registers its options and, when it is the one that was
 /// called, sets `action`; the frame runs it once the whole line has been read without fault.
 struct CommandContext {
-  std::ostream& out;  ///< results
-  std::ostream& err;  ///< messages
+  std::ostream& out;         ///< results
+  std::ostream& err;         ///< messages
+  std::string command_line;  ///< as typed, quoted for a shell
   Verbosity verbosity = Verbosity::kNormal;
   std::function<int()> action{};  ///< returns the exit code; throws UserError for bad input
 };

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "modules/atomic_file.hpp"
+#include "platform/input_file.hpp"
 #include "tlm/error.hpp"
 
 namespace parallax {

@@ -8,14 +8,16 @@
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <ostream>
 #include <string>
 #include <vector>
 
-#include "modules/map_file.hpp"
 #include "platform/calibration.hpp"
+#include "platform/command_context.hpp"
 #include "platform/map_builder.hpp"
 #include "platform/map_fit.hpp"
 #include "platform/map_info.hpp"
+#include "platform/map_storage.hpp"
 #include "platform/raw_map_file.hpp"
 #include "tlm/error.hpp"
 
@@ -54,7 +56,7 @@ ImageSize parse_size(const std::string& option, const std::string& text) {
   return size;
 }
 
-RectificationMap map_of_calibration(const EncodeOptions& options) {
+RectificationMap map_of_calibration(const EncodeOptions& options, std::ostream& out) {
   const ImageSize size = options.size.empty() ? ImageSize{} : parse_size("--size", options.size);
   Calibration calibration = read_calibration(options.calibration, size);
   if (!options.size.empty()) {
@@ -62,7 +64,7 @@ RectificationMap map_of_calibration(const EncodeOptions& options) {
   }
   if (options.fit) {
     if (const std::optional<Fit> found = fit(calibration, options.range)) {
-      fmt::print(
+      out << fmt::format(
           "fit: {}; focal length {:.2f} px, principal points ({:.2f}, {:.2f}) left and ({:.2f}, {:.2f}) "
           "right\n",
           found->text(), found->calibration.P1(0, 0), found->calibration.P1(0, 2),
@@ -73,10 +75,10 @@ RectificationMap map_of_calibration(const EncodeOptions& options) {
   return build_map(calibration, options.range);
 }
 
-RectificationMap map_of(const EncodeOptions& options) {
+RectificationMap map_of(const EncodeOptions& options, std::ostream& out) {
   options.range.validate();
   if (!options.calibration.empty()) {
-    return map_of_calibration(options);
+    return map_of_calibration(options, out);
   }
   if (!options.maps.empty()) {
     return build_map(read_raw_maps(options.maps), options.range,
@@ -86,7 +88,15 @@ RectificationMap map_of(const EncodeOptions& options) {
   return identity_map(size.width, size.height, options.range);
 }
 
-void add_encode(CLI::App& command) {
+// Reports what was done, unless the user wants quiet.
+template <class Action>
+int report(CommandContext& context, const Action& action) {
+  std::ostream nowhere(nullptr);
+  action(context.verbosity == Verbosity::kQuiet ? nowhere : context.out);
+  return 0;
+}
+
+void add_encode(CLI::App& command, CommandContext& context) {
   auto options = std::make_shared<EncodeOptions>();
   CLI::App* encode_command = command.add_subcommand("encode", "Compress a rectification map");
   CLI::Option_group* source = encode_command->add_option_group("source", "Where the offsets come from");
@@ -109,15 +119,19 @@ void add_encode(CLI::App& command) {
   encode_command->add_flag("--fit", options->fit, "Zoom and shift the rectified images until the offsets fit")
       ->needs(calibration);
   encode_command->add_option("-o,--out", options->output, "Map file to write")->required();
-  encode_command->callback([options] {
-    const EncodedMap map = encode(map_of(*options));
-    write_map_file(options->output, map);
-    fmt::print("{}: {}x{} px, {} bytes, {:.3f} bytes per pixel and image\n", options->output, map.width,
-               map.height, map.bytes.size(), map.bytes_per_pixel());
+  encode_command->callback([options, &context] {
+    context.action = [options, &context] {
+      return report(context, [&](std::ostream& out) {
+        const EncodedMap map = encode(map_of(*options, out));
+        write_map_file(options->output, map);
+        out << fmt::format("{}: {}x{} px, {} bytes, {:.3f} bytes per pixel and image\n", options->output,
+                           map.width, map.height, map.bytes.size(), map.bytes_per_pixel());
+      });
+    };
   });
 }
 
-void add_decode(CLI::App& command) {
+void add_decode(CLI::App& command, CommandContext& context) {
   struct Options {
     std::string input;
     std::string output;
@@ -129,13 +143,17 @@ void add_decode(CLI::App& command) {
   decode_command
       ->add_option("-o,--out", options->output, "File to write: .yml, .yaml, .xml, .json, .tif, .tiff")
       ->required();
-  decode_command->callback([options] {
-    const RectificationMap map = in_file(options->input, decode);
-    fmt::print("{}\n", fmt::join(write_raw_maps(options->output, raw_maps(map)), "\n"));
+  decode_command->callback([options, &context] {
+    context.action = [options, &context] {
+      return report(context, [&](std::ostream& out) {
+        const RectificationMap map = in_file(options->input, decode);
+        out << fmt::format("{}\n", fmt::join(write_raw_maps(options->output, raw_maps(map)), "\n"));
+      });
+    };
   });
 }
 
-void add_info(CLI::App& command) {
+void add_info(CLI::App& command, CommandContext& context) {
   struct Options {
     std::string input;
     bool json = false;
@@ -146,24 +164,23 @@ void add_info(CLI::App& command) {
   info_command->add_option("map", options->input, "Map file")->required();
   info_command->add_flag("--json", options->json, "Machine-readable, with the bytes of each row");
   info_command->add_flag("--rows", options->rows, "Also the bytes of each row");
-  info_command->callback([options] {
-    const MapInfo info = in_file(options->input, inspect);
-    if (options->json) {
-      fmt::print("{}\n", nlohmann::json(info).dump(2));
-    } else {
-      fmt::print("{}", info.text(options->rows));
-    }
+  info_command->callback([options, &context] {
+    context.action = [options, &context] {
+      const MapInfo info = in_file(options->input, inspect);
+      context.out << (options->json ? nlohmann::json(info).dump(2) + "\n" : info.text(options->rows));
+      return 0;
+    };
   });
 }
 
 }  // namespace
 
-void add_map_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("map", "Encode, decode and inspect rectification maps");
-  command->require_subcommand(1);
-  add_encode(*command);
-  add_decode(*command);
-  add_info(*command);
+void add_map_command(CLI::App& app, CommandContext& context) {
+  CLI::App& command = *app.add_subcommand("map", "Encode, decode and inspect rectification maps");
+  command.require_subcommand(1);
+  add_encode(command, context);
+  add_decode(command, context);
+  add_info(command, context);
 }
 
 }  // namespace parallax

@@ -2,19 +2,21 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
-#include <memory>
 #include <string_view>
+#include <vector>
 
 namespace parallax {
 
-/// A file that is written under a temporary name and appears under its own name when it is complete. Unless
-/// it is published, the destructor removes what was written. Every fault is a UserError with one line: the
-/// file cannot be created, the disk is full, the name cannot be taken.
+/// A file that is written under a temporary name in the same folder and appears under its own name when it is
+/// complete. Unless it is published, the destructor removes what was written. Every fault is a UserError with
+/// one line: the file cannot be created, the disk is full, the name cannot be taken. A target that is a
+/// device or a pipe is written directly: a file must not take its place.
 class OutputFile {
  public:
-  OutputFile(std::filesystem::path temporary, std::filesystem::path target);
+  explicit OutputFile(std::filesystem::path target);
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
@@ -31,10 +33,14 @@ class OutputFile {
  private:
   [[noreturn]] void fail(int error) const;
 
-  std::filesystem::path temporary_;
   std::filesystem::path target_;
+  std::filesystem::path temporary_;  ///< empty when the target is written directly
   std::FILE* file_ = nullptr;
   bool published_ = false;
 };
+
+/// A whole file at once: the old one or the new one, never a part.
+void write_file(const std::filesystem::path& target, std::string_view content);
+void write_file(const std::filesystem::path& target, const std::vector<std::uint8_t>& content);
 
 }  // namespace parallax

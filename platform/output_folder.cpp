@@ -55,10 +55,7 @@ void OutputFolder::make(const fs::path& folder) {
 OutputFile& OutputFolder::open(const std::string& name) {
   const fs::path target = path_ / name;
   if (target.parent_path() != path_) make(target.parent_path());
-  // Hidden, and with the process number: two runs into one folder do not meet.
-  const fs::path temporary =
-      target.parent_path() / fmt::format(".{}.{}.part", target.filename().string(), ::getpid());
-  pending_.push_back(std::make_unique<OutputFile>(temporary, target));
+  pending_.push_back(std::make_unique<OutputFile>(target));
   return *pending_.back();
 }
 

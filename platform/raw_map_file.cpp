@@ -9,8 +9,9 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
-#include "modules/atomic_file.hpp"
 #include "platform/file_storage.hpp"
+#include "platform/input_file.hpp"
+#include "platform/output_file.hpp"
 #include "tlm/error.hpp"
 
 namespace parallax {
@@ -79,10 +80,6 @@ void check_sizes(const RawMaps& maps, const std::string& source) {
   }
 }
 
-void write(const std::string& path, const std::string& text) {
-  write_file(path, reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
-}
-
 }  // namespace
 
 RawMaps read_raw_maps(const std::vector<std::string>& paths) {
@@ -115,7 +112,7 @@ std::vector<std::string> write_raw_maps(const std::string& path, const RawMaps& 
     for (const NamedMap& named : kMaps) {
       file << named.name << maps.*named.map;
     }
-    write(path, file.releaseAndGetString());
+    write_file(path, file.releaseAndGetString());
     return {path};
   }
   if (extension != ".tif" && extension != ".tiff") {
@@ -127,7 +124,7 @@ std::vector<std::string> write_raw_maps(const std::string& path, const RawMaps& 
     cv::imencode(extension, maps.*named.map, bytes);
     const std::string name = fmt::format("{}_{}{}", target.stem().string(), named.name, extension);
     names.push_back((target.parent_path() / name).string());
-    write_file(names.back(), bytes.data(), bytes.size());
+    write_file(names.back(), bytes);
   }
   return names;
 }

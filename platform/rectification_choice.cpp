@@ -5,9 +5,9 @@
 
 #include <algorithm>
 
-#include "modules/map_file.hpp"
 #include "platform/map_builder.hpp"
 #include "platform/map_fit.hpp"
+#include "platform/map_storage.hpp"
 #include "tlm/error.hpp"
 
 namespace parallax {

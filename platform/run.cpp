@@ -8,6 +8,7 @@
 #include <chrono>
 #include <cstdio>
 #include <exception>
+#include <limits>
 #include <memory>
 #include <utility>
 
@@ -16,6 +17,7 @@
 #include "platform/frame_results.hpp"
 #include "platform/frame_source.hpp"
 #include "platform/image_padding.hpp"
+#include "platform/interruption.hpp"
 #include "platform/machine.hpp"
 #include "platform/preset.hpp"
 #include "platform/progress.hpp"
@@ -27,6 +29,7 @@ namespace parallax {
 namespace {
 
 constexpr int kMachineStuck = 1;
+constexpr int kSignalled = 128;  // as shells report a program that a signal ended
 
 ImageLimits limits(const MachineConfig& config) {
   return {static_cast<int>(config.image.max_width), static_cast<int>(config.image.max_height)};
@@ -51,7 +54,7 @@ std::unique_ptr<FrameSource> scene(const RunOptions& options, const MachineConfi
   scene_config.disparity_offset = config.matching.disparity_offset;
   scene_config.distortion = !options.rectified;
   scene_config.validate();
-  return scene_source(scene_config, std::max<std::int64_t>(1, options.frames));
+  return scene_source(scene_config, options.frames.value_or(1));
 }
 
 std::unique_ptr<FrameSource> open_source(const RunOptions& options, const MachineConfig& config,
@@ -62,8 +65,9 @@ std::unique_ptr<FrameSource> open_source(const RunOptions& options, const Machin
   }
   if (!options.left.empty() && !options.input.empty())
     throw UserError("--input and --left/--right exclude each other");
-  if (options.frames < 0)
-    throw UserError(fmt::format("--frames is {}, allowed is 1 and more", options.frames));
+  if (options.frames.value_or(1) < 1) {
+    throw UserError(fmt::format("--frames is {}, allowed is 1 and more", *options.frames));
+  }
   if (options.timing_frames < 1) {
     throw UserError(fmt::format("--timing-frames is {}, allowed is 1 and more", options.timing_frames));
   }
@@ -76,10 +80,13 @@ std::unique_ptr<FrameSource> open_source(const RunOptions& options, const Machin
   if (!options.size.empty() || options.rectified) {
     throw UserError("--size and --rectified are for the built-in scene, but images are given");
   }
+  if (options.scene.seed != SceneConfig{}.seed) {
+    throw UserError("--seed is for the built-in scene, but images are given");
+  }
   std::vector<ImagePair> pairs = options.input.empty() ? std::vector<ImagePair>{{options.left, options.right}}
                                                        : find_image_pairs(options.input);
-  auto source = file_source(std::move(pairs), limits(config), options.frames, options.ground_truth,
-                            options.mask, notice);
+  auto source = file_source(std::move(pairs), limits(config), options.frames.value_or(0),
+                            options.ground_truth, options.mask, notice);
   const auto demand = [&](const char* key, std::uint32_t wanted, int found) {
     if (wanted != 0 && static_cast<int>(wanted) != found) {
       throw UserError(fmt::format("{} = {}, but {} has {} px; 0 takes it from the images", key, wanted,
@@ -115,7 +122,7 @@ class Run {
   }
 
   int execute() {
-    const auto began = std::chrono::steady_clock::now();
+    const Interruption interruption;
     progress_ = std::make_unique<Progress>(
         context_.err, context_.verbosity != Verbosity::kQuiet && standard_error_is_terminal(), "frames",
         total_frames_);
@@ -124,33 +131,48 @@ class Run {
     input.height = padded_.height;
     input.map = &rectification_.map;
     input.frames = total_frames_;
-    input.expose = [this](std::int64_t frame) { return guarded([&] { return expose(frame); }); };
-    input.deliver = [this](const FrameResult& result) { guarded([&] { return take(result), 0; }); };
-    sc_core::sc_report_handler::set_actions(sc_core::SC_INFO, sc_core::SC_DO_NOTHING);
+    input.expose = [&](std::int64_t frame) {
+      if (interruption.requested()) stop();
+      return guarded(frame, [&] { return expose(frame); });
+    };
+    input.deliver = [&](const FrameResult& result) {
+      if (interruption.requested() && delivered_ + 1 < total_frames_) stop();
+      guarded(delivered_, [&] { return take(result), 0; });
+    };
     const Machine machine("machine", configuration_.machine, input);
     sc_core::sc_start();
     progress_.reset();
     if (failure_) std::rethrow_exception(failure_);
+    if (stopping_) return interrupted(interruption.signal());
     if (!machine.finished()) return stuck(machine);
-    totals_.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+    totals_.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
     totals_.peak_megabytes = static_cast<double>(usage.ru_maxrss) / 1024.0;
+    totals_.command = context_.command_line;
+    if (options_.left.empty() && options_.input.empty()) totals_.scene_seed = options_.scene.seed;
     report(measure(machine, totals_, size_.width, size_.height));
     return 0;
   }
 
  private:
-  // A fault inside the simulation ends it; the kernel must not see the exception, it would lose its line.
+  // A fault inside the simulation ends it, when the frames before `frame` are at the host; the kernel must
+  // not see the exception, it would lose its line.
   template <class Action>
-  auto guarded(const Action& action) -> decltype(action()) {
+  auto guarded(std::int64_t frame, const Action& action) -> decltype(action()) {
+    if (stopping_) return {};
     try {
-      return action();
+      if (frame < broken_) return action();
     } catch (...) {
-      if (!failure_) failure_ = std::current_exception();
-      sc_core::sc_stop();
-      return {};
+      failure_ = std::current_exception();
+      broken_ = frame;
+      if (delivered_ >= broken_) stop();
     }
+    return {};
+  }
+
+  void stop() {
+    if (!std::exchange(stopping_, true)) sc_core::sc_stop();
   }
 
   void note(const std::string& line) {
@@ -168,7 +190,11 @@ class Run {
 
   void take(const FrameResult& result) {
     progress_->advance();
-    if (result.disparities.empty()) return;
+    if (!result.disparities.empty()) keep(result);
+    if (++delivered_ == broken_) stop();
+  }
+
+  void keep(const FrameResult& result) {
     const std::vector<Disparity> disparities = crop_disparities(result.disparities, padded_.width, size_);
     ++totals_.frames;
     totals_.pixels += size_.area();
@@ -183,7 +209,8 @@ class Run {
     std::copy(result.left.begin(), result.left.end(), left.begin<Gray>());
     const std::string prefix = source_->frames() == 1 ? "" : fmt::format("frame_{:04}/", result.index);
     write_frame(*folder_, prefix, crop_image(left, size_), disparities, writing_);
-    folder_->publish();
+    // The frames of a sequence appear one by one, a single pair's results together with its timing.
+    if (source_->frames() > 1) folder_->publish();
   }
 
   void report(const MetricGroup& metrics) {
@@ -197,8 +224,15 @@ class Run {
       context_.out << tree.dump(2) << '\n';
     } else if (context_.verbosity != Verbosity::kQuiet) {
       context_.out << summary(metrics);
+      if (context_.verbosity == Verbosity::kVerbose) context_.out << stage_summary(metrics);
       if (folder_) context_.out << fmt::format("results             {}\n", options_.out.string());
     }
+  }
+
+  int interrupted(int signal) {
+    context_.err << fmt::format("parallax: interrupted after {} frame{}\n", totals_.frames,
+                                totals_.frames == 1 ? "" : "s");
+    return kSignalled + signal;
   }
 
   int stuck(const Machine& machine) {
@@ -213,6 +247,7 @@ class Run {
     return kMachineStuck;
   }
 
+  const std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
   const RunOptions& options_;
   CommandContext& context_;
   const Configuration configuration_;
@@ -227,7 +262,10 @@ class Run {
   FrameResultOptions writing_;
   std::unique_ptr<Progress> progress_;
   RunTotals totals_;
+  std::int64_t delivered_ = 0;
+  std::int64_t broken_ = std::numeric_limits<std::int64_t>::max();  // the frame at which the run fails
   std::exception_ptr failure_;
+  bool stopping_ = false;
 };
 
 }  // namespace

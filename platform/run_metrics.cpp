@@ -120,7 +120,6 @@ void add_limit(MetricGroup& root, const Machine& machine, const Window& window) 
   std::vector<Load> others;
   std::copy_if(all.begin(), all.end(), std::back_inserter(others),
                [&](const Load& l) { return l.busy < kSamePace * limit.busy; });
-  const Load next = most_upstream_limit(others);
   std::stable_sort(all.begin(), all.end(), [](const Load& a, const Load& b) { return a.busy > b.busy; });
   MetricGroup& group = root.group("limit");
   group.add({"part", limit.part, "", "The part that is at work for the largest share of a frame's period.",
@@ -129,6 +128,7 @@ void add_limit(MetricGroup& root, const Machine& machine, const Window& window) 
   const double period = window.period > 0 ? window.period : limit.busy;
   group.add({"utilisation", 100.0 * limit.busy / period, "%",
              "Share of the frame period in which it is at work.", window.text});
+  const Load next = others.empty() ? limit : most_upstream_limit(others);
   group.add({"next_part", next.part, "", "The part that would limit next.", window.text});
   group.add({"next_frame_rate", 1.0 / next.busy, "frames/s", "The rate at which it would.", window.text});
   MetricGroup& parts = group.group("utilisation_by_part");
@@ -212,9 +212,15 @@ MetricGroup measure(const Machine& machine, const RunTotals& totals, int image_w
   MetricGroup& run = root.group("run");
   run.add({"version", std::string(version()), "", "Of the model.", ""});
   run.add({"revision", std::string(revision()), "", "Git revision that the model was built from.", ""});
+  run.add({"command", totals.command, "", "Makes this run again, from the same folder.", ""});
+  if (totals.scene_seed) {
+    run.add({"seed", fmt::format("{}", *totals.scene_seed), "", "Of the built-in scene.", ""});
+  }
   run.add({"wall_time", totals.wall_seconds, "s", "Time that the run took on this computer.", ""});
   run.add(
       {"simulated_time", seconds(machine.times().back().at_host), "s", "Time of the modelled machine.", ""});
+  run.add({"speed", seconds(machine.times().back().at_host) / std::max(totals.wall_seconds, 1e-9), "s/s",
+           "Simulated time per wall-clock time.", ""});
   run.add({"peak_memory", totals.peak_megabytes, "MB", "Largest resident size of the program.", ""});
 
   MetricGroup& input = root.group("input");

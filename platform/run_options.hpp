@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,8 +21,8 @@ struct RunOptions {
   std::string input;
   std::string size;  ///< WxH of the built-in scene
   SceneConfig scene;
-  bool rectified = false;   ///< the built-in scene without distortion
-  std::int64_t frames = 0;  ///< 0: all of the input; one of the scene
+  bool rectified = false;              ///< the built-in scene without distortion
+  std::optional<std::int64_t> frames;  ///< none: all of the input; one of the scene
   std::int64_t timing_frames = 4;
   std::string ground_truth;
   std::string mask;

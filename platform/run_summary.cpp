@@ -89,4 +89,18 @@ std::string summary(const MetricGroup& m) {
   return text;
 }
 
+std::string stage_summary(const MetricGroup& m) {
+  std::string text;
+  for (const MetricGroup& group : m.groups) {
+    if (group.name != "stages") continue;
+    for (const MetricGroup& stage : group.groups) {
+      text += fmt::format(
+          "stage {:<18}{:>6.1f} % at work; {:.0f} cycles busy, {:.0f} idle, {:.0f} starved, {:.0f} blocked\n",
+          stage.name, number(stage, "utilisation"), number(stage, "busy"), number(stage, "idle"),
+          number(stage, "starved"), number(stage, "blocked"));
+    }
+  }
+  return text;
+}
+
 }  // namespace parallax

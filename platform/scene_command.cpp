@@ -10,7 +10,8 @@
 #include <memory>
 #include <string>
 
-#include "platform/atomic_file.hpp"
+#include "platform/command_context.hpp"
+#include "platform/output_folder.hpp"
 #include "platform/result_images.hpp"
 #include "platform/scene.hpp"
 #include "tlm/error.hpp"
@@ -18,11 +19,9 @@
 namespace parallax {
 namespace {
 
-namespace fs = std::filesystem;
-
 struct SceneOptions {
   SceneConfig config;
-  fs::path out;
+  std::filesystem::path out;
   std::string size = "640x480";
   int frames = 1;
   bool rectified = false;
@@ -45,32 +44,28 @@ int write_scene(SceneOptions options) {
     throw UserError(fmt::format("--frames is {}, allowed is 1 and more", options.frames));
   }
   const Scene scene(options.config);
-  std::error_code failed;
-  fs::create_directories(options.out, failed);
-  if (failed) {
-    throw UserError(fmt::format("cannot make the folder {}: {}", options.out.string(), failed.message()));
-  }
-  const std::string calibration = to_yaml(scene.calibration());
-  write_atomically(options.out / "calib.yml", {calibration.begin(), calibration.end()});
+  OutputFolder folder(options.out);
+  folder.write("calib.yml", to_yaml(scene.calibration()));
   const int digits = std::max<int>(2, static_cast<int>(std::to_string(options.frames - 1).size()));
   for (int frame = 0; frame < options.frames; ++frame) {
     const StereoImages images = scene.render(frame);
     const SceneTruth truth = scene.truth(frame);
     const std::string suffix = options.frames == 1 ? ".png" : fmt::format("_{:0{}}.png", frame, digits);
     const auto write = [&](const char* name, const cv::Mat& image) {
-      write_atomically(options.out / (name + suffix), encode_png(image));
+      folder.write(name + suffix, encode_png(image));
     };
     write("disp_gt", truth.disparity);
     write("mask_nocc", truth.mask);
     write("left", images.left);
     write("right", images.right);
+    folder.publish();
   }
   return 0;
 }
 
 }  // namespace
 
-void add_scene_command(CLI::App& app, std::function<int()>& action) {
+void add_scene_command(CLI::App& app, CommandContext& context) {
   const auto options = std::make_shared<SceneOptions>();
   CLI::App& command = *app.add_subcommand(
       "scene", "Write the built-in scene: a stereo pair or sequence with calibration and exact ground truth");
@@ -91,7 +86,7 @@ void add_scene_command(CLI::App& app, std::function<int()>& action) {
   command.add_option("--motion", config.motion, "Amplitude of the motion, 0 = none")->capture_default_str();
   command.add_flag("--rectified", options->rectified,
                    "No lens distortion, cameras aligned: nothing to rectify");
-  command.callback([options, &action] { action = [options] { return write_scene(*options); }; });
+  command.callback([options, &context] { context.action = [options] { return write_scene(*options); }; });
 }
 
 }  // namespace parallax

@@ -33,7 +33,7 @@ nlohmann::ordered_json to_json(const MetricGroup& group) {
   for (const Metric& metric : group.metrics) {
     auto& entry = tree[metric.name];
     std::visit([&entry](const auto& value) { entry["value"] = value; }, metric.value);
-    if (!metric.unit.empty()) entry["unit"] = metric.unit;
+    entry["unit"] = metric.unit;
     entry["description"] = metric.description;
     if (!metric.window.empty()) entry["window"] = metric.window;
   }

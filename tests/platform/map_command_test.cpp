@@ -8,9 +8,11 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <opencv2/imgcodecs.hpp>
+#include <sstream>
 
-#include "modules/map_file.hpp"
+#include "platform/command_context.hpp"
 #include "platform/map_info.hpp"
+#include "platform/map_storage.hpp"
 #include "platform/raw_map_file.hpp"
 #include "tests/platform/test_calibrations.hpp"
 
@@ -25,18 +27,13 @@ class MapCommand : public test::TemporaryFolder {
   // What the command prints.
   static std::string run(std::vector<std::string> arguments) {
     CLI::App app;
-    add_map_command(app);
+    std::ostringstream out;
+    CommandContext context{out, out, ""};
+    add_map_command(app, context);
     std::reverse(arguments.begin(), arguments.end());
-    ::testing::internal::CaptureStdout();
-    try {
-      app.parse(arguments);
-    } catch (...) {
-      std::fflush(stdout);
-      ::testing::internal::GetCapturedStdout();
-      throw;
-    }
-    std::fflush(stdout);
-    return ::testing::internal::GetCapturedStdout();
+    app.parse(arguments);
+    EXPECT_EQ(context.action(), 0);
+    return out.str();
   }
 
   static std::string error(const std::vector<std::string>& arguments) {

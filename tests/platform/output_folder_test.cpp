@@ -116,27 +116,6 @@ TEST(OutputFolder, RefusesAFolderThatCannotBeWritten) {
             "cannot make the output folder " + locked + "/new/results: Permission denied");
 }
 
-/// /dev/full stands in for a full disk: opening works, writing does not.
-TEST(OutputFile, SaysThatTheDiskIsFull) {
-  TemporaryFolder temporary;
-  const std::string expected = "cannot write " + (temporary / "a.bin") + ": No space left on device";
-  const std::string large(1 << 20, 'x');
-  fs::create_symlink("/dev/full", temporary / "part");
-  EXPECT_EQ(error_of([&] {
-              OutputFile file(temporary / "part", temporary / "a.bin");
-              file.write(large);
-            }),
-            expected);
-  fs::create_symlink("/dev/full", temporary / "part");
-  EXPECT_EQ(error_of([&] {
-              OutputFile file(temporary / "part", temporary / "a.bin");
-              file.write("short: still in the buffer");
-              file.publish();
-            }),
-            expected);
-  EXPECT_EQ(entries(temporary.path()), 0U);
-}
-
 TEST(OutputFolder, PublishesNothingOnAFullDisk) {
   TemporaryFolder temporary;
   if (::mount("tmpfs", temporary.path().c_str(), "tmpfs", 0, "size=64k") != 0) {

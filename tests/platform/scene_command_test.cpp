@@ -6,11 +6,13 @@
 #include <CLI/CLI.hpp>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
+#include <sstream>
 
-#include "error_line.hpp"
+#include "platform/command_context.hpp"
 #include "platform/image_input.hpp"
 #include "platform/scene.hpp"
-#include "temporary_folder.hpp"
+#include "tests/platform/error_line.hpp"
+#include "tests/platform/temporary_folder.hpp"
 #include "tlm/error.hpp"
 
 namespace parallax {
@@ -18,10 +20,11 @@ namespace {
 
 int run(const std::string& arguments) {
   CLI::App app;
-  std::function<int()> action;
-  add_scene_command(app, action);
+  std::ostringstream out;
+  CommandContext context{out, out, ""};
+  add_scene_command(app, context);
   app.parse("scene " + arguments);
-  return action();
+  return context.action();
 }
 
 bool same(const cv::Mat& a, const cv::Mat& b) {
@@ -30,7 +33,7 @@ bool same(const cv::Mat& a, const cv::Mat& b) {
 
 TEST(SceneCommand, OnePair) {
   const TemporaryFolder folder;
-  EXPECT_EQ(run("--out " + (folder / "a/b").string() + " --size 96x64 --disparities 32 --seed 5"), 0);
+  EXPECT_EQ(run("--out " + (folder / "a/b") + " --size 96x64 --disparities 32 --seed 5"), 0);
   SceneConfig config;
   config.width = 96;
   config.height = 64;
@@ -46,7 +49,7 @@ TEST(SceneCommand, OnePair) {
   EXPECT_TRUE(same(read("right.png"), images.right));
   EXPECT_TRUE(same(read("disp_gt.png"), truth.disparity));
   EXPECT_TRUE(same(read("mask_nocc.png"), truth.mask));
-  cv::FileStorage calibration((folder / "a/b/calib.yml").string(), cv::FileStorage::READ);
+  cv::FileStorage calibration((folder / "a/b/calib.yml"), cv::FileStorage::READ);
   EXPECT_EQ(static_cast<int>(calibration["image_width"]), 96);
 }
 
@@ -66,7 +69,7 @@ TEST(SceneCommand, SequenceIsASequenceForTheImageInput) {
 TEST(SceneCommand, Errors) {
   const TemporaryFolder folder;
   const auto error = [&](const std::string& arguments) {
-    return error_line<UserError>([&] { run("--out " + (folder / "new").string() + " " + arguments); });
+    return error_line<UserError>([&] { run("--out " + (folder / "new") + " " + arguments); });
   };
   EXPECT_EQ(error("--size 640"), "--size is '640', expected width x height such as 640x480");
   EXPECT_EQ(error("--size 640x480x3"), "--size is '640x480x3', expected width x height such as 640x480");
@@ -74,7 +77,7 @@ TEST(SceneCommand, Errors) {
   EXPECT_EQ(error("--frames 0"), "--frames is 0, allowed is 1 and more");
   EXPECT_FALSE(std::filesystem::exists(folder / "new"));
   EXPECT_EQ(error_line<UserError>([] { run("--size 8x8 --out /dev/null/x"); }),
-            "cannot make the folder /dev/null/x: Not a directory");
+            "cannot make the output folder /dev/null/x: /dev/null is a file");
 }
 
 }  // namespace

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <csignal>
+
+namespace parallax {
+
+/// While it lives, SIGINT (Ctrl-C) and SIGTERM are noted instead of ending the program, so that a run can
+/// stop in an orderly way. Each is noted once: the second one ends the program at once. A signal that was
+/// ignored before (nohup) stays ignored. One at a time.
+class Interruption {
+ public:
+  Interruption();
+  ~Interruption();
+  Interruption(const Interruption&) = delete;
+  Interruption& operator=(const Interruption&) = delete;
+
+  bool requested() const { return signal() != 0; }
+  /// The signal noted, 0 for none.
+  int signal() const;
+
+ private:
+  std::array<struct sigaction, 2> before_{};
+};
+
+}  // namespace parallax

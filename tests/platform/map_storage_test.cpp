@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "platform/map_storage.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "tests/modules/random_maps.hpp"
+#include "tests/platform/test_calibrations.hpp"
+
+namespace parallax {
+namespace {
+
+using test::message;
+
+class MapStorage : public test::TemporaryFolder {
+ protected:
+  std::size_t files() const {
+    return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder_), {}));
+  }
+};
+
+TEST_F(MapStorage, ReadsWhatItWrote) {
+  const EncodedMap map = encode(test::noise_map(37, 11, {41, 3}, 5));
+  write_map_file(path("a.map"), map);
+  EXPECT_EQ(files(), 1U);
+  const EncodedMap read = read_map_file(path("a.map"));
+  EXPECT_EQ(read.width, 37);
+  EXPECT_EQ(read.height, 11);
+  EXPECT_TRUE(read.range == map.range);
+  EXPECT_EQ(read.bytes, map.bytes);
+  EXPECT_EQ(read.row_bytes, map.row_bytes);
+}
+
+TEST_F(MapStorage, UnreadableAndUnwritableNamesTheFile) {
+  EXPECT_EQ(message([&] { read_map_file(path("none.map")); }),
+            path("none.map") + ": cannot read: No such file or directory");
+  const EncodedMap map = encode(identity_map(4, 4));
+  EXPECT_EQ(message([&] { write_map_file(path("no/such/folder/a.map"), map); }),
+            "cannot write " + path("no/such/folder/a.map") + ": No such file or directory");
+  EXPECT_EQ(message([&] { write_map_file(folder_.string(), map); }),
+            "cannot write " + folder_.string() + ": Is a directory");
+  EXPECT_NE(message([&] { read_map_file(folder_.string()); }), "");
+  EXPECT_EQ(files(), 0U);
+}
+
+}  // namespace
+}  // namespace parallax
