@@ -28,6 +28,7 @@
 namespace parallax {
 namespace {
 
+constexpr std::int64_t kMostFrames = 1'000'000'000;
 constexpr int kMachineStuck = 1;
 constexpr int kSignalled = 128;  // as shells report a program that a signal ended
 
@@ -65,12 +66,12 @@ std::unique_ptr<FrameSource> open_source(const RunOptions& options, const Machin
   }
   if (!options.left.empty() && !options.input.empty())
     throw UserError("--input and --left/--right exclude each other");
-  if (options.frames.value_or(1) < 1) {
-    throw UserError(fmt::format("--frames is {}, allowed is 1 and more", *options.frames));
-  }
-  if (options.timing_frames < 1) {
-    throw UserError(fmt::format("--timing-frames is {}, allowed is 1 and more", options.timing_frames));
-  }
+  const auto count = [](const char* option, std::int64_t value) {
+    if (value >= 1 && value <= kMostFrames) return;
+    throw UserError(fmt::format("{} is {}, allowed is 1 to {}", option, value, kMostFrames));
+  };
+  count("--frames", options.frames.value_or(1));
+  count("--timing-frames", options.timing_frames);
   if (!options.mask.empty() && options.ground_truth.empty()) throw UserError("--mask needs --ground-truth");
   if (options.fit && options.calibration.empty()) throw UserError("--fit needs --calibration");
   if (!options.map.empty() && !options.calibration.empty()) {

@@ -3,12 +3,21 @@
 
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <string>
 
 #include "platform/command_context.hpp"
 #include "platform/common_options.hpp"
 #include "platform/run.hpp"
 
 namespace parallax {
+namespace {
+
+// A script's unset variable must not turn into another run than the one that was meant.
+CLI::Validator not_empty() {
+  return {[](const std::string& name) { return std::string(name.empty() ? "the name is empty" : ""); }, ""};
+}
+
+}  // namespace
 
 void add_run_command(CLI::App& app, CommandContext& context) {
   const auto options = std::make_shared<RunOptions>();
@@ -17,11 +26,18 @@ void add_run_command(CLI::App& app, CommandContext& context) {
       "Stereo pairs through the whole machine: disparity maps and timing. Without input: the built-in scene");
   command.option_defaults()->take_last();
 
-  command.add_option("--left", options->left, "Left image")->type_name("FILE")->group("Input");
-  command.add_option("--right", options->right, "Right image")->type_name("FILE")->group("Input");
+  command.add_option("--left", options->left, "Left image")
+      ->check(not_empty())
+      ->type_name("FILE")
+      ->group("Input");
+  command.add_option("--right", options->right, "Right image")
+      ->check(not_empty())
+      ->type_name("FILE")
+      ->group("Input");
   command
       .add_option("--input", options->input,
                   "A sequence: a folder of pairs, or a list file with two paths a line")
+      ->check(not_empty())
       ->type_name("PATH")
       ->group("Input");
   command
@@ -39,21 +55,25 @@ void add_run_command(CLI::App& app, CommandContext& context) {
   command
       .add_option("--ground-truth", options->ground_truth,
                   "True disparities of a pair: 16-bit PNG, disparity * 256, 0 = unknown")
+      ->check(not_empty())
       ->type_name("FILE")
       ->group("Input");
   command.add_option("--mask", options->mask, "Pixels to score: 8-bit PNG, 255 = score")
+      ->check(not_empty())
       ->type_name("FILE")
       ->group("Input");
 
   command
       .add_option("--calibration", options->calibration,
                   "The images are not rectified: OpenCV calibration file, or files that complete each other")
+      ->check(not_empty())
       ->type_name("FILE")
       ->take_all()
       ->group("Rectification");
   command
       .add_option("--map", options->map,
                   "The images are not rectified: compressed map of `parallax map encode`")
+      ->check(not_empty())
       ->type_name("FILE")
       ->group("Rectification");
   command
@@ -61,6 +81,7 @@ void add_run_command(CLI::App& app, CommandContext& context) {
       ->group("Rectification");
 
   command.add_option("--out", options->out, "Folder for the results; without it only the summary is printed")
+      ->check(not_empty())
       ->type_name("DIR")
       ->group("Output");
   command.add_flag("!--no-point-cloud", options->point_cloud, "Do not write points.ply")->group("Output");

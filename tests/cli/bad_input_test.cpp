@@ -119,14 +119,17 @@ TEST_F(BadInput, OptionsThatContradict) {
   EXPECT_EQ(pair_error("--size 64x48"),
             "--size and --rectified are for the built-in scene, but images are given");
   EXPECT_EQ(pair_error("--seed 5"), "--seed is for the built-in scene, but images are given");
-  EXPECT_EQ(pair_error("--frames -1"), "--frames is -1, allowed is 1 and more");
-  EXPECT_EQ(pair_error("--frames 0"), "--frames is 0, allowed is 1 and more");
-  EXPECT_EQ(pair_error("--timing-frames 0"), "--timing-frames is 0, allowed is 1 and more");
+  EXPECT_EQ(pair_error("--frames -1"), "--frames is -1, allowed is 1 to 1000000000");
+  EXPECT_EQ(pair_error("--frames 0"), "--frames is 0, allowed is 1 to 1000000000");
+  EXPECT_EQ(pair_error("--timing-frames 0"), "--timing-frames is 0, allowed is 1 to 1000000000");
   EXPECT_EQ(error("--size 64"), "--size: '64' is not a size such as 640x480");
   EXPECT_EQ(error("--leftt left.png"), "unknown option --leftt; the nearest is --left");
   EXPECT_EQ(error("left.png"), "unexpected argument 'left.png'");
   EXPECT_NE(error("--frames many"), "");
   EXPECT_NE(error("--left"), "");
+  EXPECT_EQ(error("--left= --right="), "--left: the name is empty");
+  EXPECT_EQ(error("--size 64x48 --out="), "--out: the name is empty");
+  EXPECT_NE(error("--frames 99999999999999999999").find("allowed is 1 to 1000000000"), std::string::npos);
 }
 
 TEST_F(BadInput, GroundTruth) {
