@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "platform/pipeline.hpp"
 
+#include <algorithm>
+
 namespace parallax {
 namespace {
 
@@ -92,10 +94,15 @@ Pipeline::Pipeline(const sc_core::sc_module_name& name, const MachineConfig& con
                                    time.census.latency + time.matching.latency + time.subpixel.latency +
                                    time.uniqueness.latency + time.consistency.latency + 6 * kFifoCycles +
                                    groups;
-  const std::uint64_t to_output = to_texture + speckle_.look_ahead() + gap_interpolation_.look_ahead() +
-                                  noise_reduction_.look_ahead() + time.texture.latency +
-                                  time.speckle.latency + time.gap_interpolation.latency +
-                                  time.noise_reduction.latency + 4 * kFifoCycles;
+  // The texture filter looks ahead in the image; disparities that arrive before the image that it wants wait.
+  const std::uint64_t before_texture =
+      texture_.look_ahead() + kFifoCycles -
+      std::min(texture_.look_ahead() + kFifoCycles,
+               census_.look_ahead() + matching_.look_ahead() + consistency_.look_ahead());
+  const std::uint64_t to_output =
+      to_texture + before_texture + speckle_.look_ahead() + gap_interpolation_.look_ahead() +
+      noise_reduction_.look_ahead() + time.texture.latency + time.speckle.latency +
+      time.gap_interpolation.latency + time.noise_reduction.latency + 4 * kFifoCycles;
 
   const auto connect = [](auto& out, auto& in, auto& between) {
     out(between);
@@ -123,7 +130,8 @@ Pipeline::Pipeline(const sc_core::sc_module_name& name, const MachineConfig& con
           stream<Cost>("costs_consistency", group_bits, to_consistency));
   connect(subpixel_.out_disparity, uniqueness_.in_disparity, stream<Disparity>("winners", kDisparityBits));
   connect(uniqueness_.out_disparity, consistency_.in_disparity, stream<Disparity>("unique", kDisparityBits));
-  connect(consistency_.out_disparity, texture_.in_disparity, stream<Disparity>("consistent", kDisparityBits));
+  connect(consistency_.out_disparity, texture_.in_disparity,
+          stream<Disparity>("consistent", kDisparityBits, before_texture));
   connect(texture_.out_disparity, speckle_.in_disparity, stream<Disparity>("textured", kDisparityBits));
   connect(speckle_.out_disparity, gap_interpolation_.in_disparity,
           stream<Disparity>("despeckled", kDisparityBits));
