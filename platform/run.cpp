@@ -2,7 +2,6 @@
 #include "platform/run.hpp"
 
 #include <fmt/format.h>
-#include <sys/resource.h>
 
 #include <algorithm>
 #include <chrono>
@@ -19,6 +18,7 @@
 #include "platform/image_padding.hpp"
 #include "platform/interruption.hpp"
 #include "platform/machine.hpp"
+#include "platform/peak_memory.hpp"
 #include "platform/preset.hpp"
 #include "platform/progress.hpp"
 #include "platform/rectification_choice.hpp"
@@ -116,7 +116,6 @@ class Run {
                                             padded_, notice_)),
         total_frames_(std::max(source_->frames(), options.timing_frames)) {
     if (const std::string line = padding_notice(size_, granularity_); !line.empty()) note(line);
-    if (!options.out.empty()) folder_ = std::make_unique<OutputFolder>(options.out);
     const DisparityRange range = configuration_.machine.matching.range();
     writing_.colors = {range.offset, range.last()};
     if (options.point_cloud) writing_.q = rectification_.q;
@@ -124,6 +123,7 @@ class Run {
 
   int execute() {
     const Interruption interruption;
+    if (!options_.out.empty()) folder_ = std::make_unique<OutputFolder>(options_.out);
     progress_ = std::make_unique<Progress>(
         context_.err, context_.verbosity != Verbosity::kQuiet && standard_error_is_terminal(), "frames",
         total_frames_);
@@ -147,9 +147,7 @@ class Run {
     if (stopping_) return interrupted(interruption.signal());
     if (!machine.finished()) return stuck(machine);
     totals_.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    totals_.peak_megabytes = static_cast<double>(usage.ru_maxrss) / 1024.0;
+    totals_.peak_megabytes = peak_memory_megabytes();
     totals_.command = context_.command_line;
     if (options_.left.empty() && options_.input.empty()) totals_.scene_seed = options_.scene.seed;
     report(measure(machine, totals_, size_.width, size_.height));

@@ -34,7 +34,8 @@ class Program {
   std::filesystem::path operator/(const std::string& name) const { return folder_.path() / name; }
   std::string read(const std::string& name) const { return folder_.read(name); }
 
-  /// `arguments` are separated by blanks. `prepare` runs in the child before the program does.
+  /// `arguments` are separated by blanks, '' is an empty one. `prepare` runs in the child before the program
+  /// does.
   Outcome operator()(const std::string& arguments, const std::function<void()>& prepare = {}) const {
     return wait(start(arguments, prepare));
   }
@@ -42,7 +43,7 @@ class Program {
   pid_t start(const std::string& arguments, const std::function<void()>& prepare = {}) const {
     std::istringstream words(arguments);
     std::vector<std::string> list{PARALLAX_PROGRAM};
-    for (std::string word; words >> word;) list.push_back(word);
+    for (std::string word; words >> word;) list.push_back(word == "''" ? "" : word);
     std::vector<char*> argv;
     for (std::string& word : list) argv.push_back(word.data());
     argv.push_back(nullptr);

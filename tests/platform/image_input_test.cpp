@@ -85,10 +85,10 @@ TEST(ImageInput, LoadsAPairAsItIs) {
 TEST(ImageInput, MissingFile) {
   const TemporaryFolder folder;
   save(folder / "left.png", grey(8, 8));
-  EXPECT_EQ(load_error(folder), "image " + (folder / "right.png").string() + " does not exist");
-  EXPECT_EQ(load_error(folder, "none.png"), "image " + (folder / "none.png").string() + " does not exist");
+  EXPECT_EQ(load_error(folder), "image " + (folder / "right.png") + " does not exist");
+  EXPECT_EQ(load_error(folder, "none.png"), "image " + (folder / "none.png") + " does not exist");
   fs::create_directory(folder / "right.png");
-  EXPECT_EQ(load_error(folder), (folder / "right.png").string() + " is a folder, expected an image");
+  EXPECT_EQ(load_error(folder), (folder / "right.png") + " is a folder, expected an image");
 }
 
 TEST(ImageInput, LaterFrameMissingIsSaidBeforeAnyWork) {
@@ -98,7 +98,7 @@ TEST(ImageInput, LaterFrameMissingIsSaidBeforeAnyWork) {
   EXPECT_EQ(error_line<UserError>([&] {
               ImageInput({{left, left}, {left, folder / "x.png"}}, {}, {});
             }),
-            "image " + (folder / "x.png").string() + " does not exist");
+            "image " + (folder / "x.png") + " does not exist");
   EXPECT_EQ(error_line<UserError>([&] { ImageInput({}, {}, {}); }), "there is no image pair to read");
 }
 
@@ -107,7 +107,7 @@ TEST(ImageInput, DamagedFiles) {
   save(folder / "right.png", grey(200, 200));
   save(folder / "photo.jpg", grey(200, 200));
   const auto expected = [&](const char* name) {
-    return "cannot read image " + (folder / name).string() +
+    return "cannot read image " + (folder / name) +
            ": it is damaged, or not a PNG, JPEG, TIFF, BMP, PNM or WebP file";
   };
   save_bytes(folder / "empty.png", "");
@@ -141,7 +141,7 @@ TEST(ImageInput, FloatingPointImage) {
   save(folder / "left.tiff", cv::Mat(8, 8, CV_32FC1, cv::Scalar(0.5)));
   save(folder / "right.png", grey(8, 8));
   EXPECT_EQ(load_error(folder, "left.tiff"),
-            "image " + (folder / "left.tiff").string() +
+            "image " + (folder / "left.tiff") +
                 " has floating-point values, expected unsigned integers of 8 or 16 bits");
 }
 
@@ -149,9 +149,8 @@ TEST(ImageInput, SizesDiffer) {
   const TemporaryFolder folder;
   save(folder / "left.png", grey(40, 30));
   save(folder / "right.png", grey(41, 30));
-  EXPECT_EQ(load_error(folder), "the left image " + (folder / "left.png").string() +
-                                    " is 40x30, the right image " + (folder / "right.png").string() +
-                                    " is 41x30; both must have one size");
+  EXPECT_EQ(load_error(folder), "the left image " + (folder / "left.png") + " is 40x30, the right image " +
+                                    (folder / "right.png") + " is 41x30; both must have one size");
 }
 
 TEST(ImageInput, SizeChangesInTheSequence) {
@@ -170,7 +169,7 @@ TEST(ImageInput, TooLarge) {
   save(folder / "left.png", cv::Mat(4, 1857, CV_8UC1, cv::Scalar(1)));
   save(folder / "right.png", cv::Mat(4, 1857, CV_8UC1, cv::Scalar(1)));
   EXPECT_EQ(load_error(folder),
-            "image " + (folder / "left.png").string() + " is 1857x4, larger than the largest size 1856x1856");
+            "image " + (folder / "left.png") + " is 1857x4, larger than the largest size 1856x1856");
   EXPECT_EQ(error_line<UserError>([&] {
               ImageInput({{folder / "left.png", folder / "right.png"}}, {1857, 4}, {});
             }),
@@ -221,7 +220,7 @@ TEST(ImageInput, TwelveBitsInSixteen) {
                          "16-bit images: the largest value of the first pair is 4095, so they are "
                          "taken as 12-bit and the lower 4 bits are dropped"}));
   const std::string line = error_line<UserError>([&] { input.load(1); });
-  EXPECT_EQ(line.rfind("image " + (folder / "bright.png").string() + " holds the value ", 0), 0u) << line;
+  EXPECT_EQ(line.rfind("image " + (folder / "bright.png") + " holds the value ", 0), 0u) << line;
   EXPECT_NE(line.find(", but the sequence began with 12-bit values (at most 4095)"), std::string::npos)
       << line;
 }
@@ -284,7 +283,7 @@ TEST(ImagePairs, FoldersAreRecognised) {
     SCOPED_TRACE(c.what);
     const TemporaryFolder folder;
     for (const std::string& file : c.files) {
-      fs::create_directories((folder / file).parent_path());
+      fs::create_directories(fs::path(folder / file).parent_path());
       save_bytes(folder / file, "x");
     }
     const std::vector<ImagePair> found = find_image_pairs(folder.path());
@@ -300,7 +299,7 @@ TEST(ImagePairs, FolderErrors) {
   const auto error = [](const std::vector<std::string>& files) {
     const TemporaryFolder folder;
     for (const std::string& file : files) {
-      fs::create_directories((folder / file).parent_path());
+      fs::create_directories(fs::path(folder / file).parent_path());
       save_bytes(folder / file, "x");
     }
     std::string line = error_line<UserError>([&] { find_image_pairs(folder.path()); });
@@ -330,7 +329,7 @@ TEST(ImagePairs, ListFile) {
     save_bytes(folder / name, "x");
   }
   save_bytes(folder / "list.txt", "# left right\n\na.png b.png\r\n  b.png\t\"c d.png\"  # the last\n" +
-                                      (folder / "a.png").string() + " a.png");
+                                      (folder / "a.png") + " a.png");
   const std::vector<ImagePair> pairs = find_image_pairs(folder / "list.txt");
   ASSERT_EQ(pairs.size(), 3u);
   EXPECT_EQ(pairs[0].left, folder / "a.png");
@@ -342,14 +341,14 @@ TEST(ImagePairs, ListFile) {
 TEST(ImagePairs, ListErrors) {
   const TemporaryFolder folder;
   save_bytes(folder / "a.png", "x");
-  const std::string list = (folder / "list.txt").string();
+  const std::string list = (folder / "list.txt");
   const auto error = [&](const std::string& text) {
     save_bytes(list, text);
     return error_line<UserError>([&] { find_image_pairs(list); });
   };
   EXPECT_EQ(error("a.png a.png\na.png\n"), list + ":2: 1 path in this line, expected two: left right");
   EXPECT_EQ(error("a.png a.png a.png"), list + ":1: 3 paths in this line, expected two: left right");
-  EXPECT_EQ(error("\na.png b.png"), list + ":2: " + (folder / "b.png").string() + " does not exist");
+  EXPECT_EQ(error("\na.png b.png"), list + ":2: " + (folder / "b.png") + " does not exist");
   EXPECT_EQ(error("# nothing\n"),
             "the list of pairs " + list + " is empty; expected two paths a line: left right");
 }

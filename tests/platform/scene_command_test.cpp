@@ -43,7 +43,7 @@ TEST(SceneCommand, OnePair) {
   const StereoImages images = scene.render(0);
   const SceneTruth truth = scene.truth(0);
   const auto read = [&](const std::string& name) {
-    return cv::imread((folder / "a/b" / name).string(), cv::IMREAD_UNCHANGED);
+    return cv::imread(folder / ("a/b/" + name), cv::IMREAD_UNCHANGED);
   };
   EXPECT_TRUE(same(read("left.png"), images.left));
   EXPECT_TRUE(same(read("right.png"), images.right));
