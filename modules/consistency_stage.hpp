@@ -1,35 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <systemc>
-
 #include "modules/consistency.hpp"
-#include "modules/raster_schedule.hpp"
-#include "modules/row_join.hpp"
-#include "tlm/stage.hpp"
+#include "modules/cost_check_stage.hpp"
 
 namespace parallax {
 
-/// Consistency check: the cost groups of a pixel and, with the last one, its disparity in; the disparity out
-/// when the right pixel has seen all its candidates, the disparity range later (consistency.hpp; paper,
-/// "Consistency Check").
-class ConsistencyStage final : public Stage {
- public:
-  StreamIn<Cost> in_costs{"in_costs"};  ///< a token is one group of costs
-  StreamIn<Disparity> in_disparity{"in_disparity"};
-  StreamOut<Disparity> out_disparity{"out_disparity"};
-
-  /// `groups`: cost tokens a pixel.
-  ConsistencyStage(const sc_core::sc_module_name& name, const ConsistencyConfig& config, DisparityRange range,
-                   std::uint32_t groups, const StageTiming& timing, const StageContext& context);
-
-  std::uint64_t look_ahead() const { return look_ahead_; }
-  Bits storage() const { return Bits(kernel_.storage_bits()); }
-
- private:
-  Consistency kernel_;
-  RowJoin<Cost, Disparity> rows_;
-  std::uint64_t look_ahead_;
-};
+/// Consistency check: a disparity leaves when its right pixel has seen all its candidates, the disparity
+/// range later (paper, "Consistency Check").
+using ConsistencyStage = CostCheckStage<Consistency, ConsistencyConfig>;
 
 }  // namespace parallax

@@ -67,8 +67,12 @@ std::string summary(const MetricGroup& m) {
                         number(m, "performance/disparities_per_second") / 1e6);
   }
   text += fmt::format(
-      "latency             {:.3f} ms to the first pixel, {:.3f} ms to the last, from frame in memory\n",
-      number(m, "latency/first_pixel_mean"), number(m, "latency/last_pixel_mean"));
+      "latency             {:.3f} ms to the first pixel, {:.3f} ms to the last, from frame in memory (first "
+      "frame)\n",
+      number(m, "latency/first_pixel_first_frame"), number(m, "latency/last_pixel_first_frame"));
+  text += fmt::format(
+      "                    {:.3f} ms and {:.3f} ms with frames before it under way (mean of {})\n",
+      number(m, "latency/first_pixel_mean"), number(m, "latency/last_pixel_mean"), window);
   text += fmt::format("                    {:.3f} ms from exposure to the host, first frame {:.3f} ms\n",
                       number(m, "latency/exposure_to_host_mean"),
                       number(m, "latency/exposure_to_host_first_frame"));

@@ -122,7 +122,8 @@ void StreamBase::release() {
 
 void StreamBase::wait_writable(std::uint64_t ahead) {
   write_wait_began_ = writer_clock_.now();
-  const std::uint64_t token = statistics_.written + ahead;  // those before it may get written meanwhile
+  // Tokens before this one may be committed meanwhile, so its place counts from the first, not from the next.
+  const std::uint64_t token = statistics_.written + ahead;
   while (!write_date_known(token - statistics_.written)) {
     writer_waits_ = true;
     sc_core::wait(read_);
