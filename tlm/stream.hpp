@@ -39,10 +39,13 @@ class Stream final : public StreamBase {
   }
 
   /// For threads in kernel time: reads one token in the first cycle in which that is possible. The value must
-  /// have been sent by then, which every writer in this library does before the token's date.
+  /// have been sent by then, which every writer in this library does before the token's date, as long as the
+  /// values of a row enter the actors with the row's first token: where they enter one by one, an actor works
+  /// on them when the row is complete. SC_REPORT_ERROR /parallax/stream/value when it has not been sent.
   T read() {
     wait_readable();
     release();
+    if (values_.empty()) SC_REPORT_ERROR("/parallax/stream/value", name());
     T value = values_.front();
     values_.pop_front();
     return value;

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+// The README as data: its fenced blocks and its tables.
+#pragma once
+
+#include <fstream>
+#include <regex>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace parallax::test {
+
+inline std::string read_text(const std::string& path) {
+  std::ifstream file(path);
+  if (!file) throw std::runtime_error("cannot read " + path);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+inline std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+struct FencedBlock {
+  std::string language;
+  std::string note;  ///< of an HTML comment on the line before, as in `<!-- not run: installs packages -->`
+  std::size_t line = 0;  ///< of the opening fence, from 1
+  std::vector<std::string> lines;
+};
+
+inline std::vector<FencedBlock> fenced_blocks(const std::string& markdown) {
+  static const std::regex comment("<!-- (.*) -->");
+  std::vector<FencedBlock> blocks;
+  bool inside = false;
+  std::string note;
+  std::size_t number = 0;
+  for (const std::string& line : lines_of(markdown)) {
+    ++number;
+    if (line.rfind("```", 0) == 0) {
+      if (!inside) blocks.push_back({line.substr(3), note, number, {}});
+      inside = !inside;
+      note.clear();
+    } else if (inside) {
+      blocks.back().lines.push_back(line);
+    } else if (std::smatch found; std::regex_match(line, found, comment)) {
+      note = found[1];
+    } else {
+      note.clear();
+    }
+  }
+  return blocks;
+}
+
+/// One command of a `console` block with what is shown below it. "$ echo $?" after it states its exit code.
+struct Command {
+  std::string text;
+  std::size_t line = 0;
+  int exit_code = 0;
+  std::vector<std::string> shown;
+};
+
+inline std::vector<Command> commands_of(const FencedBlock& block) {
+  std::vector<Command> commands;
+  bool states_code = false;
+  bool goes_on = false;
+  for (std::size_t i = 0; i < block.lines.size(); ++i) {
+    const std::string& line = block.lines[i];
+    if (goes_on) {
+      commands.back().text += "\n" + line;
+    } else if (line == "$ echo $?") {
+      states_code = true;
+    } else if (line.rfind("$ ", 0) == 0) {
+      commands.push_back({line.substr(2), block.line + i + 1, 0, {}});
+    } else if (commands.empty()) {
+      throw std::runtime_error("a console block begins with a command, not with: " + line);
+    } else if (states_code) {
+      commands.back().exit_code = std::stoi(line);
+      states_code = false;
+    } else {
+      commands.back().shown.push_back(line);
+      continue;
+    }
+    goes_on = !line.empty() && line.back() == '\\';
+  }
+  return commands;
+}
+
+/// Text with its numbers taken out, for what differs from machine to machine.
+inline std::string without_numbers(const std::string& line) {
+  static const std::regex number("[0-9]+(\\.[0-9]+)?");
+  static const std::regex space(" +");
+  return std::regex_replace(std::regex_replace(line, number, "#"), space, " ");
+}
+
+/// The rows of the glossary: "| `name` | unit | meaning |".
+struct GlossaryEntry {
+  std::string name;
+  std::string unit;
+  std::string meaning;
+};
+
+inline std::vector<GlossaryEntry> glossary_of(const std::string& markdown) {
+  static const std::regex row("\\| `([a-z0-9_/<>]+)` \\| ([^|]*) \\| (.*) \\|");
+  std::vector<GlossaryEntry> entries;
+  bool inside = false;
+  for (const std::string& line : lines_of(markdown)) {
+    if (line.rfind("#", 0) == 0) inside = line.find("Glossary") != std::string::npos;
+    std::smatch found;
+    if (inside && std::regex_match(line, found, row)) entries.push_back({found[1], found[2], found[3]});
+  }
+  return entries;
+}
+
+}  // namespace parallax::test

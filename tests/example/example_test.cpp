@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+// The examples of the documentation at work: a stage of one's own between two blocks in kernel time.
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "tests/example/fill_from_left_stage.hpp"
+#include "tests/example/slow_copy.hpp"
+
+namespace parallax::test {
+namespace {
+
+// A row's values enter with its first token, or one by one.
+enum class Sending { kRows, kTokens };
+
+class Source final : public sc_core::sc_module {
+ public:
+  StreamOut<Disparity> out{"out"};
+  Source(const sc_core::sc_module_name& name, std::vector<Disparity> row, Sending sending)
+      : sc_module(name), row_(std::move(row)), sending_(sending) {
+    SC_HAS_PROCESS(Source);
+    SC_THREAD(run);
+  }
+
+ private:
+  void run() {
+    if (sending_ == Sending::kRows) out.send_row(row_.data(), row_.size());
+    for (const Disparity& value : row_) {
+      if (sending_ == Sending::kTokens) {
+        out->write(value);
+      } else {
+        out->wait_writable();
+        out->commit();
+      }
+    }
+  }
+  const std::vector<Disparity> row_;
+  const Sending sending_;
+};
+
+class Sink final : public sc_core::sc_module {
+ public:
+  StreamIn<Disparity> in{"in"};
+  std::vector<Disparity> values;
+  std::vector<std::int64_t> cycles;
+  Sink(const sc_core::sc_module_name& name, const ClockDomain& clock) : sc_module(name), clock_(clock) {
+    SC_HAS_PROCESS(Sink);
+    SC_THREAD(run);
+  }
+
+ private:
+  void run() {
+    for (;;) {
+      values.push_back(in->read());
+      cycles.push_back(clock_.now().count());
+    }
+  }
+  const ClockDomain& clock_;
+};
+
+// source -> FillFromLeftStage -> SlowCopy -> sink
+class Chain {
+ public:
+  static constexpr int kWidth = 6;
+  static std::vector<Disparity> row() {
+    return {{}, {100, Cause::kMatched}, {}, {}, {}, {200, Cause::kMatched}};
+  }
+
+  explicit Chain(Sending sending)
+      : source_("source", row(), sending),
+        fill("fill", {2}, StageTiming{}, {clock_, dataflow_, kWidth, 1}),
+        slow_("slow", clock_),
+        sink("sink", clock_),
+        a_("a", dataflow_, clock_, clock_, {}),
+        b_("b", dataflow_, clock_, clock_, {}),
+        c_("c", dataflow_, clock_, clock_, {}) {
+    source_.out(a_);
+    fill.in_disparity(a_);
+    fill.out_disparity(b_);
+    slow_.in_disparity(b_);
+    slow_.out_disparity(c_);
+    sink.in(c_);
+  }
+
+ private:
+  const ClockDomain clock_{"clock", Hertz(100'000'000)};
+  Dataflow dataflow_{"dataflow"};
+  Source source_;
+
+ public:
+  FillFromLeftStage fill;
+
+ private:
+  SlowCopy slow_;
+
+ public:
+  Sink sink;
+
+ private:
+  Stream<Disparity> a_, b_, c_;
+};
+
+TEST(Example, AStageOfOnesOwnRunsBetweenKernelTimeBlocks) {
+  Chain chain(Sending::kRows);
+  sc_core::sc_start();
+  const std::vector<Disparity> row = Chain::row();
+  const Disparity filled{100, Cause::kInterpolated};
+  EXPECT_EQ(chain.sink.values, (std::vector<Disparity>{{}, row[1], filled, filled, {}, row[5]}));
+  // Written in cycle 0, read by the stage in 1, written in 2, read by the slow block in 3, written in 5, read
+  // in 6; then every third cycle.
+  EXPECT_EQ(chain.sink.cycles, (std::vector<std::int64_t>{6, 9, 12, 15, 18, 21}));
+  EXPECT_EQ(chain.fill.storage(), Bits(20));
+}
+
+TEST(Example, AValueThatIsReadBeforeItsRowIsCompleteIsReported) {
+  const Chain chain(Sending::kTokens);
+  try {
+    sc_core::sc_start();
+    FAIL() << "the value of the first token cannot be known";
+  } catch (const sc_core::sc_report& report) {
+    EXPECT_STREQ(report.get_msg_type(), "/parallax/stream/value");
+  }
+}
+
+}  // namespace
+}  // namespace parallax::test
