@@ -89,7 +89,7 @@ Machine::Machine(const sc_core::sc_module_name& name, const MachineConfig& confi
   right_sensor_.out_bursts(camera_right_bursts_);
   dma_camera_left_.in_bursts(camera_left_bursts_);
   dma_camera_right_.in_bursts(camera_right_bursts_);
-  pipeline_.bind(dma_left_, dma_right_, dma_map_, dma_output_);
+  pipeline_.bind(dma_left_.out_bursts, dma_right_.out_bursts, dma_map_.out_bursts, dma_output_.in_bursts);
   dma_link_.out_bursts(link_bursts_);
   link_.in_bursts(link_bursts_);
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "platform/pipeline.hpp"
 
+#include <algorithm>
+
 namespace parallax {
 namespace {
 
@@ -88,14 +90,19 @@ Pipeline::Pipeline(const sc_core::sc_module_name& name, const MachineConfig& con
   constexpr std::uint64_t kFifoCycles = 2;
   const std::uint64_t to_uniqueness = groups + time.subpixel.latency + kFifoCycles;
   const std::uint64_t to_consistency = to_uniqueness + groups + time.uniqueness.latency + kFifoCycles;
-  const std::uint64_t to_texture = census_.look_ahead() + matching_.look_ahead() + consistency_.look_ahead() +
-                                   time.census.latency + time.matching.latency + time.subpixel.latency +
-                                   time.uniqueness.latency + time.consistency.latency + 6 * kFifoCycles +
-                                   groups;
-  const std::uint64_t to_output = to_texture + speckle_.look_ahead() + gap_interpolation_.look_ahead() +
-                                  noise_reduction_.look_ahead() + time.texture.latency +
-                                  time.speckle.latency + time.gap_interpolation.latency +
-                                  time.noise_reduction.latency + 4 * kFifoCycles;
+  const std::uint64_t disparities_ahead =
+      census_.look_ahead() + matching_.look_ahead() + consistency_.look_ahead();
+  const std::uint64_t to_texture = disparities_ahead + time.census.latency + time.matching.latency +
+                                   time.subpixel.latency + time.uniqueness.latency +
+                                   time.consistency.latency + 6 * kFifoCycles + groups;
+  // The texture filter looks ahead too, on the image alone: what it is ahead of the disparities waits there.
+  const std::uint64_t image_ahead = texture_.look_ahead();
+  const std::uint64_t to_disparity =
+      image_ahead > disparities_ahead ? image_ahead - disparities_ahead + kFifoCycles : 0;
+  const std::uint64_t to_output =
+      std::max(to_texture, image_ahead + kFifoCycles) + speckle_.look_ahead() +
+      gap_interpolation_.look_ahead() + noise_reduction_.look_ahead() + time.texture.latency +
+      time.speckle.latency + time.gap_interpolation.latency + time.noise_reduction.latency + 4 * kFifoCycles;
 
   const auto connect = [](auto& out, auto& in, auto& between) {
     out(between);
@@ -123,7 +130,8 @@ Pipeline::Pipeline(const sc_core::sc_module_name& name, const MachineConfig& con
           stream<Cost>("costs_consistency", group_bits, to_consistency));
   connect(subpixel_.out_disparity, uniqueness_.in_disparity, stream<Disparity>("winners", kDisparityBits));
   connect(uniqueness_.out_disparity, consistency_.in_disparity, stream<Disparity>("unique", kDisparityBits));
-  connect(consistency_.out_disparity, texture_.in_disparity, stream<Disparity>("consistent", kDisparityBits));
+  connect(consistency_.out_disparity, texture_.in_disparity,
+          stream<Disparity>("consistent", kDisparityBits, to_disparity));
   connect(texture_.out_disparity, speckle_.in_disparity, stream<Disparity>("textured", kDisparityBits));
   connect(speckle_.out_disparity, gap_interpolation_.in_disparity,
           stream<Disparity>("despeckled", kDisparityBits));
@@ -134,11 +142,12 @@ Pipeline::Pipeline(const sc_core::sc_module_name& name, const MachineConfig& con
   output_packing_.out_bursts(output_bursts_);
 }
 
-void Pipeline::bind(DmaReader& left, DmaReader& right, DmaReader& map, DmaWriter& output) {
-  left.out_bursts(left_bursts_);
-  right.out_bursts(right_bursts_);
-  map.out_bursts(map_bursts_);
-  output.in_bursts(output_bursts_);
+void Pipeline::bind(StreamOut<std::uint8_t>& left, StreamOut<std::uint8_t>& right,
+                    StreamOut<std::uint8_t>& map, StreamIn<std::uint8_t>& output) {
+  left(left_bursts_);
+  right(right_bursts_);
+  map(map_bursts_);
+  output(output_bursts_);
 }
 
 std::vector<StageInfo> Pipeline::stages() const {

@@ -38,9 +38,10 @@ class Pipeline final : public sc_core::sc_module {
   Pipeline(const sc_core::sc_module_name& name, const MachineConfig& config, const EncodedMap& map,
            const StageContext& context);
 
-  /// Binds the engines that bring the left image, the right image and the map, and the one that takes the
-  /// results.
-  void bind(DmaReader& left, DmaReader& right, DmaReader& map, DmaWriter& output);
+  /// Binds the ports that bring the left image, the right image and the map in bursts, and the one that takes
+  /// the results.
+  void bind(StreamOut<std::uint8_t>& left, StreamOut<std::uint8_t>& right, StreamOut<std::uint8_t>& map,
+            StreamIn<std::uint8_t>& output);
 
   OutputPackingStage& output() { return output_packing_; }
   /// The stage whose tokens are the final disparities.

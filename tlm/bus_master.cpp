@@ -8,49 +8,68 @@
 namespace parallax {
 
 BusMaster::BusMaster(const sc_core::sc_module_name& name, std::size_t burst_bytes, std::uint32_t outstanding,
-                     std::function<void(::tlm::tlm_generic_payload&, const sc_core::sc_time&)> response)
-    : sc_module(name), pool_(burst_bytes), outstanding_(outstanding), response_(std::move(response)) {
+                     std::function<void(::tlm::tlm_generic_payload&)> response)
+    : sc_module(name),
+      pool_(burst_bytes),
+      outstanding_(outstanding),
+      response_(std::move(response)),
+      later_(this, &BusMaster::phase_due) {
   socket.register_nb_transport_bw(this, &BusMaster::nb_transport_bw);
 }
 
-void BusMaster::send(::tlm::tlm_generic_payload& payload) {
+void BusMaster::wait_for_place() {
   while (in_flight_ == outstanding_) sc_core::wait(moved_);
+}
+
+void BusMaster::send(::tlm::tlm_generic_payload& payload) {
   ++in_flight_;
   requesting_ = &payload;
   ::tlm::tlm_phase phase = ::tlm::BEGIN_REQ;
   sc_core::sc_time delay = sc_core::SC_ZERO_TIME;
-  switch (socket->nb_transport_fw(payload, phase, delay)) {
-    case ::tlm::TLM_COMPLETED:
-      requesting_ = nullptr;
-      answered(payload, delay);
-      break;
-    case ::tlm::TLM_UPDATED:
-      requesting_ = nullptr;
-      if (phase == ::tlm::BEGIN_RESP) {
-        answered(payload, delay);
-        phase = ::tlm::END_RESP;
-        socket->nb_transport_fw(payload, phase, delay);
-      } else if (delay > sc_core::SC_ZERO_TIME) {
-        sc_core::wait(delay);
-      }
-      break;
-    case ::tlm::TLM_ACCEPTED:
-      break;
+  const ::tlm::tlm_sync_enum status = socket->nb_transport_fw(payload, phase, delay);
+  if (status != ::tlm::TLM_ACCEPTED) {
+    if (delay > sc_core::SC_ZERO_TIME) sc_core::wait(delay);
+    requesting_ = nullptr;
+    if (status == ::tlm::TLM_COMPLETED) {
+      answered(payload);
+    } else if (phase == ::tlm::BEGIN_RESP) {
+      end_response(payload);
+    }
   }
   while (requesting_ != nullptr) sc_core::wait(moved_);
 }
 
 ::tlm::tlm_sync_enum BusMaster::nb_transport_bw(::tlm::tlm_generic_payload& payload, ::tlm::tlm_phase& phase,
                                                 sc_core::sc_time& delay) {
-  if (requesting_ == &payload) requesting_ = nullptr;  // END_REQ, or BEGIN_RESP that implies it
-  moved_.notify(delay);
-  if (phase != ::tlm::BEGIN_RESP) return ::tlm::TLM_ACCEPTED;
-  answered(payload, delay);
+  if (delay > sc_core::SC_ZERO_TIME) {
+    later_.notify(payload, phase, delay);
+    return ::tlm::TLM_ACCEPTED;
+  }
+  if (!take_phase(payload, phase)) return ::tlm::TLM_ACCEPTED;
+  answered(payload);
   phase = ::tlm::END_RESP;
   return ::tlm::TLM_COMPLETED;
 }
 
-void BusMaster::answered(::tlm::tlm_generic_payload& payload, const sc_core::sc_time& delay) {
+void BusMaster::phase_due(::tlm::tlm_generic_payload& payload, const ::tlm::tlm_phase& phase) {
+  if (take_phase(payload, phase)) end_response(payload);
+}
+
+// Whether the phase is an answer.
+bool BusMaster::take_phase(::tlm::tlm_generic_payload& payload, const ::tlm::tlm_phase& phase) {
+  if (requesting_ == &payload) requesting_ = nullptr;  // END_REQ, or BEGIN_RESP that implies it
+  moved_.notify(sc_core::SC_ZERO_TIME);
+  return phase == ::tlm::BEGIN_RESP;
+}
+
+void BusMaster::end_response(::tlm::tlm_generic_payload& payload) {
+  ::tlm::tlm_phase phase = ::tlm::END_RESP;
+  sc_core::sc_time delay = sc_core::SC_ZERO_TIME;
+  socket->nb_transport_fw(payload, phase, delay);
+  answered(payload);
+}
+
+void BusMaster::answered(::tlm::tlm_generic_payload& payload) {
   if (payload.is_response_error()) {
     SC_REPORT_ERROR("/parallax/dma/response",
                     fmt::format("{}: {} bytes at {:#x}: {}", name(), payload.get_data_length(),
@@ -58,8 +77,8 @@ void BusMaster::answered(::tlm::tlm_generic_payload& payload, const sc_core::sc_
                         .c_str());
   }
   --in_flight_;
-  moved_.notify(delay);
-  response_(payload, sc_core::sc_time_stamp() + delay);
+  moved_.notify(sc_core::SC_ZERO_TIME);
+  response_(payload);
   payload.release();
 }
 

@@ -11,7 +11,7 @@ namespace {
 using Ends = std::deque<std::pair<std::uint64_t, std::function<void()>>>;
 
 void finish(Ends& ends, std::uint64_t answered) {
-  while (!ends.empty() && ends.front().first == answered) {
+  while (!ends.empty() && ends.front().first <= answered) {
     const auto done = std::move(ends.front().second);
     ends.pop_front();
     if (done) done();
@@ -33,7 +33,7 @@ DmaReader::DmaReader(const sc_core::sc_module_name& name, const DmaEngineConfig&
                      const ClockDomain& clock)
     : sc_module(name),
       master("master", static_cast<std::size_t>(config.burst.count()), config.outstanding,
-             [this](::tlm::tlm_generic_payload&, const sc_core::sc_time& time) { arrived(time); }),
+             [this](::tlm::tlm_generic_payload&) { arrived(); }),
       config_(config),
       clock_(clock) {
   SC_HAS_PROCESS(DmaReader);
@@ -54,11 +54,13 @@ void DmaReader::run() {
     jobs_.pop_front();
     const std::uint64_t bytes = job.bytes();
     ends_.emplace_back(requested_ + burst_count(bytes, config_.burst), job.done);
+    finish(ends_, answered_);  // a job without bytes
     std::size_t row = 0;
     std::uint64_t row_start = 0;
     for (std::uint64_t at = 0; at < bytes; at += burst) {
       const std::uint64_t size = std::min(burst, bytes - at);
       for (int i = 0; i < out_bursts.size(); ++i) out_bursts[i]->wait_writable(requested_ - answered_);
+      master.wait_for_place();
       clock_.wait_until(std::max(next, clock_.now()));
       send_rows(job, row, row_start, at + size);
       ++requested_;
@@ -81,8 +83,8 @@ void DmaReader::send_rows(const DmaJob& job, std::size_t& row, std::uint64_t& ro
   }
 }
 
-void DmaReader::arrived(const sc_core::sc_time& time) {
-  for (int i = 0; i < out_bursts.size(); ++i) out_bursts[i]->commit(time);
+void DmaReader::arrived() {
+  for (int i = 0; i < out_bursts.size(); ++i) out_bursts[i]->commit();
   finish(ends_, ++answered_);
 }
 
@@ -90,7 +92,7 @@ DmaWriter::DmaWriter(const sc_core::sc_module_name& name, const DmaEngineConfig&
                      const ClockDomain& clock)
     : sc_module(name),
       master("master", static_cast<std::size_t>(config.burst.count()), config.outstanding,
-             [this](::tlm::tlm_generic_payload&, const sc_core::sc_time&) { finish(ends_, ++answered_); }),
+             [this](::tlm::tlm_generic_payload&) { finish(ends_, ++answered_); }),
       config_(config),
       clock_(clock) {
   SC_HAS_PROCESS(DmaWriter);
@@ -113,9 +115,12 @@ void DmaWriter::run() {
     jobs_.pop_front();
     const std::uint64_t bytes = job.bytes();
     ends_.emplace_back(requested_ + burst_count(bytes, config_.burst), job.done);
+    finish(ends_, answered_);  // a job without bytes
     for (std::uint64_t at = 0; at < bytes; at += burst) {
       const std::uint64_t size = std::min(burst, bytes - at);
       in_bursts->wait_readable();
+      master.wait_for_place();
+      clock_.wait_until(clock_.now());
       ::tlm::tlm_generic_payload& payload =
           master.pool().take(::tlm::TLM_WRITE_COMMAND, job.address + at, size);
       if (job.values) {

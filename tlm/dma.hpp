@@ -53,7 +53,7 @@ class DmaReader final : public sc_core::sc_module {
  private:
   void run();
   void send_rows(const DmaJob& job, std::size_t& row, std::uint64_t& row_start, std::uint64_t until);
-  void arrived(const sc_core::sc_time& time);
+  void arrived();
 
   const DmaEngineConfig config_;
   const ClockDomain& clock_;

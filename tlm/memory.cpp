@@ -30,7 +30,10 @@ Memory::Memory(const sc_core::sc_module_name& name, const MemoryTiming& timing, 
 
 void Memory::Free::operator()(void* memory) const { std::free(memory); }
 
-void Memory::end_of_elaboration() { ports_.resize(socket.size()); }
+void Memory::end_of_elaboration() {
+  ports_.resize(socket.size());
+  last_served_ = ports_.empty() ? 0 : ports_.size() - 1;  // the first turn is the first port's
+}
 
 double Memory::usable_bandwidth() const {
   return static_cast<double>(timing_.bytes_per_cycle.count()) * static_cast<double>(timing_.efficiency) /
@@ -42,11 +45,16 @@ double Memory::usable_bandwidth() const {
   Port& port = ports_[static_cast<std::size_t>(id)];
   if (phase == ::tlm::END_RESP) {
     port.answering = false;
+    port.answered_until = sc_core::sc_time_stamp() + delay;
     if (!port.answers.empty()) answer_.notify(delay);
     return ::tlm::TLM_COMPLETED;
   }
   if (phase != ::tlm::BEGIN_REQ) {
     SC_REPORT_ERROR("/parallax/memory/phase", "a request must begin with BEGIN_REQ and end with END_RESP");
+    return ::tlm::TLM_COMPLETED;
+  }
+  if (port.refused != nullptr) {
+    SC_REPORT_ERROR("/parallax/memory/phase", "a second BEGIN_REQ before the END_REQ of the first");
     return ::tlm::TLM_COMPLETED;
   }
   payload.acquire();
@@ -144,9 +152,9 @@ void Memory::serve() {
 
   if (port->refused != nullptr) {
     ::tlm::tlm_generic_payload& taken = *std::exchange(port->refused, nullptr);
-    port->queue.push_back({&taken, std::max(now, port->refused_arrival)});
+    port->queue.push_back({&taken, port->refused_arrival});
     ::tlm::tlm_phase phase = ::tlm::END_REQ;
-    sc_core::sc_time delay = sc_core::SC_ZERO_TIME;
+    sc_core::sc_time delay = std::max(now, port->refused_arrival) - now;
     socket[static_cast<int>(last_served_)]->nb_transport_bw(taken, phase, delay);
   }
 }
@@ -165,9 +173,14 @@ void Memory::answer() {
 void Memory::begin_response(std::size_t id) {
   Port& port = ports_[id];
   while (!port.answers.empty() && !port.answering) {
+    const sc_core::sc_time now = sc_core::sc_time_stamp();
+    if (port.answered_until > now) {
+      answer_.notify(port.answered_until - now);
+      return;
+    }
     const Request request = port.answers.front();
     port.answers.pop_front();
-    const sc_core::sc_time latency = sc_core::sc_time_stamp() - request.arrival;
+    const sc_core::sc_time latency = now - request.arrival;
     port.statistics.latency_sum += latency;
     port.statistics.latency_largest = std::max(port.statistics.latency_largest, latency);
     if (request.blocking != nullptr) {
@@ -180,6 +193,7 @@ void Memory::begin_response(std::size_t id) {
         socket[static_cast<int>(id)]->nb_transport_bw(*request.payload, phase, delay);
     port.answering =
         status == ::tlm::TLM_ACCEPTED || (status == ::tlm::TLM_UPDATED && phase != ::tlm::END_RESP);
+    if (!port.answering) port.answered_until = now + delay;
     request.payload->release();
   }
 }

@@ -68,7 +68,8 @@ class Memory final : public sc_core::sc_module {
     ::tlm::tlm_generic_payload* refused = nullptr;  // BEGIN_REQ not answered with END_REQ yet
     sc_core::sc_time refused_arrival;
     std::deque<Request> answers;
-    bool answering = false;  // BEGIN_RESP sent, END_RESP not seen
+    bool answering = false;           // BEGIN_RESP sent, END_RESP not seen
+    sc_core::sc_time answered_until;  // END_RESP's own time; the next BEGIN_RESP is not earlier
     MemoryPortStatistics statistics;
   };
 

@@ -10,36 +10,60 @@ namespace parallax {
 
 Stage::Stage(const sc_core::sc_module_name& name, const ClockDomain& clock, Dataflow& dataflow,
              std::uint32_t latency)
-    : sc_module(name), clock_(clock), dataflow_(dataflow), latency_(latency), left_(latency) {}
+    : sc_module(name), clock_(clock), dataflow_(dataflow), latency_(latency) {
+  std::size_t size = 1;
+  while (size < latency) size *= 2;
+  pipe_.resize(size);
+  pipe_mask_ = size - 1;
+}
 
 void Stage::end_of_elaboration() {
-  std::size_t in = 0;
-  std::size_t out = 0;
+  std::vector<std::vector<StreamBase*>> in;
+  std::vector<std::vector<StreamBase*>> out;
   for (sc_core::sc_object* child : get_child_objects()) {
     auto* port = dynamic_cast<StreamPort*>(child);
-    if (port == nullptr) continue;
-    if ((port->is_input() ? in : out) == kMaxPorts) {
-      throw std::logic_error(fmt::format("{}: more than {} stream ports one way", name(), kMaxPorts));
-    }
-    (port->is_input() ? inputs_[in++] : outputs_[out++]) = port->streams();
+    if (port != nullptr) (port->is_input() ? in : out).push_back(port->streams());
+  }
+  if (in.size() > kMaxPorts || out.size() > kMaxPorts) {
+    throw std::logic_error(fmt::format("{}: more than {} stream ports one way", name(), kMaxPorts));
   }
   for (const Phase& phase : schedule_.phases()) {
-    if ((phase.consume >> in) != 0 || (phase.produce >> out) != 0 || phase.interval == 0) {
+    if ((phase.consume >> in.size()) != 0 || (phase.produce >> out.size()) != 0 || phase.interval == 0) {
       throw std::logic_error(fmt::format("{}: the schedule names a port that does not exist", name()));
     }
   }
+  inputs_ = gather(in);
+  outputs_ = gather(out);
+}
+
+// Lays the streams of every mask out one after the other, so that a firing goes through a plain array.
+Stage::Ports Stage::gather(const std::vector<std::vector<StreamBase*>>& ports) {
+  Ports all;
+  all.count = ports.size();
+  std::vector<std::size_t> ends;
+  for (unsigned mask = 0; mask < (1u << ports.size()); ++mask) {
+    for (std::size_t port = 0; port < ports.size(); ++port) {
+      if (((mask >> port) & 1u) != 0) {
+        all.streams.insert(all.streams.end(), ports[port].begin(), ports[port].end());
+      }
+    }
+    ends.push_back(all.streams.size());
+  }
+  std::size_t begin = 0;
+  for (const std::size_t end : ends) {
+    all.of_mask.push_back({all.streams.data() + begin, all.streams.data() + end});
+    begin = end;
+  }
+  return all;
+}
+
+std::vector<const StreamBase*> Stage::at_port(const Ports& ports, unsigned port) {
+  if (port >= ports.count) return {};
+  const Streams& streams = ports.of_mask[1u << port];
+  return {streams.begin(), streams.end()};
 }
 
 void Stage::start_of_simulation() { dataflow_.wake(*this); }
-
-template <class Function>
-void Stage::for_each(const std::array<std::vector<StreamBase*>, kMaxPorts>& ports, PortMask mask,
-                     Function function) {
-  for (std::size_t port = 0; mask != 0; ++port, mask = static_cast<PortMask>(mask >> 1)) {
-    if ((mask & 1u) == 0) continue;
-    for (StreamBase* stream : ports[port]) function(*stream);
-  }
-}
 
 void Stage::advance() {
   if (schedule_.empty()) return;
@@ -56,32 +80,33 @@ bool Stage::fire() {
 
   bool known = true;
   Cycles inputs(0);
-  StreamBase* latest = nullptr;
-  for_each(inputs_, phase.consume, [&](StreamBase& stream) {
-    if (!stream.read_date_known()) {
-      stream.wait_for_token();
+  const StreamBase* latest = nullptr;
+  const Streams consumed = inputs_.of_mask[phase.consume];
+  for (StreamBase* stream : consumed) {
+    if (!stream->read_date_known()) {
+      stream->wait_for_token();
       known = false;
-    } else if (const Cycles date = stream.readable_at(); date > inputs || latest == nullptr) {
+    } else if (const Cycles date = stream->readable_at(); date > inputs || latest == nullptr) {
       inputs = date;
-      latest = &stream;
+      latest = stream;
     }
-  });
+  }
 
   Cycles room(0);
   if (phase.produce != 0) {
     if (latency_ == 0) {
-      for_each(outputs_, phase.produce, [&](StreamBase& stream) {
-        if (!stream.write_date_known()) {
-          stream.wait_for_room();
+      for (StreamBase* stream : outputs_.of_mask[phase.produce]) {
+        if (!stream->write_date_known()) {
+          stream->wait_for_room();
           known = false;
         } else {
-          room = std::max(room, stream.writable_at());
+          room = std::max(room, stream->writable_at());
         }
-      });
-    } else if (pipe_.size() == latency_) {
+      }
+    } else if (entered_ - left_ == latency_) {
       known = false;  // drain() has said which stream it waits for
-    } else if (left_count_ + pipe_.size() >= latency_) {
-      room = left_[(left_count_ + pipe_.size()) % latency_];
+    } else if (entered_ >= latency_) {
+      room = pipe_[(entered_ - latency_) & pipe_mask_].left;
     }
   }
   if (!known) return false;
@@ -89,8 +114,7 @@ bool Stage::fire() {
   const Cycles ready = std::max(free_, inputs);
   const Cycles start = std::max(ready, room);
   const Cycles starved = ready - free_;
-  for_each(inputs_, phase.consume,
-           [&](StreamBase& stream) { stream.mark_read(start, &stream == latest ? starved : Cycles(0)); });
+  for (StreamBase* stream : consumed) stream->mark_read(start, stream == latest ? starved : Cycles(0));
   statistics_.starved += starved;
   statistics_.blocked += start - ready;
   (phase.consume == 0 && phase.produce == 0 ? statistics_.idle : statistics_.busy) += Cycles(phase.interval);
@@ -102,11 +126,11 @@ bool Stage::fire() {
   frames_.back().last_firing = start;
   free_ = start + Cycles(phase.interval);
   if (phase.produce != 0) {
-    const Pending firing{start, phase.produce, static_cast<std::uint32_t>(frames_.size() - 1)};
+    Firing& firing = pipe_[entered_++ & pipe_mask_];
+    firing = {start, start, phase.produce, static_cast<std::uint32_t>(frames_.size() - 1)};
     if (latency_ == 0) {
+      ++left_;
       write(firing, start);
-    } else {
-      pipe_.push_back(firing);
     }
   }
   step(phase);
@@ -114,33 +138,36 @@ bool Stage::fire() {
 }
 
 void Stage::drain() {
-  while (!pipe_.empty() && write(pipe_.front(), pipe_.front().start + Cycles(latency_))) {
-    left_[left_count_++ % latency_] = last_write_;
-    pipe_.pop_front();
+  while (left_ != entered_) {
+    Firing& firing = pipe_[left_ & pipe_mask_];
+    if (!write(firing, firing.start + Cycles(latency_))) return;
+    ++left_;
   }
 }
 
 // Writes a firing's tokens if it is known when all its outputs have room.
-bool Stage::write(const Pending& firing, Cycles earliest) {
+bool Stage::write(Firing& firing, Cycles earliest) {
   bool known = true;
   Cycles room(0);
-  StreamBase* latest = nullptr;
-  for_each(outputs_, firing.produce, [&](StreamBase& stream) {
-    if (!stream.write_date_known()) {
-      stream.wait_for_room();
+  const StreamBase* latest = nullptr;
+  const Streams produced = outputs_.of_mask[firing.produce];
+  for (StreamBase* stream : produced) {
+    if (!stream->write_date_known()) {
+      stream->wait_for_room();
       known = false;
-    } else if (const Cycles date = stream.writable_at(); date > room || latest == nullptr) {
+    } else if (const Cycles date = stream->writable_at(); date > room || latest == nullptr) {
       room = date;
-      latest = &stream;
+      latest = stream;
     }
-  });
+  }
   if (!known) return false;
   const Cycles wanted = std::max(earliest, last_write_ + Cycles(1));
   last_write_ = std::max(wanted, room);
+  firing.left = last_write_;
   const Cycles blocked = last_write_ - wanted;
-  for_each(outputs_, firing.produce, [&](StreamBase& stream) {
-    stream.mark_written(last_write_, &stream == latest ? blocked : Cycles(0));
-  });
+  for (StreamBase* stream : produced) {
+    stream->mark_written(last_write_, stream == latest ? blocked : Cycles(0));
+  }
   FrameDates& frame = frames_[firing.frame];
   if (frame.first_write < Cycles(0)) frame.first_write = last_write_;
   frame.last_write = last_write_;

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <cstdint>
-#include <deque>
 #include <systemc>
 #include <vector>
 
@@ -53,6 +51,9 @@ class Stage : public sc_core::sc_module, public Actor {
   const StageStatistics& statistics() const { return statistics_; }
   /// One entry a frame whose first firing is known; the last one may be unfinished.
   const std::vector<FrameDates>& frames() const { return frames_; }
+  /// The streams at input (output) port `port`, in order of binding; after elaboration.
+  std::vector<const StreamBase*> input_streams(unsigned port) const { return at_port(inputs_, port); }
+  std::vector<const StreamBase*> output_streams(unsigned port) const { return at_port(outputs_, port); }
 
  protected:
   /// `clock` and `dataflow` must outlive the stage.
@@ -70,10 +71,22 @@ class Stage : public sc_core::sc_module, public Actor {
   void advance() override;
 
  private:
-  struct Pending {  // a firing in the pipeline whose writing date is not known yet
+  struct Firing {  // one that writes
     Cycles start;
-    PortMask produce;
-    std::uint32_t frame;
+    Cycles left;  // when it left the pipeline, once that is known
+    PortMask produce = 0;
+    std::uint32_t frame = 0;
+  };
+  struct Streams {  // of one PortMask, as a piece of Ports::streams
+    StreamBase** first = nullptr;
+    StreamBase** last = nullptr;
+    StreamBase** begin() const { return first; }
+    StreamBase** end() const { return last; }
+  };
+  struct Ports {  // all one way
+    std::size_t count = 0;
+    std::vector<StreamBase*> streams;
+    std::vector<Streams> of_mask;  // every mask below 2^count
   };
   struct Position {  // of the next firing in the schedule
     std::size_t segment = 0;
@@ -82,27 +95,28 @@ class Stage : public sc_core::sc_module, public Actor {
     std::uint32_t count = 0;
   };
 
+  static Ports gather(const std::vector<std::vector<StreamBase*>>& ports);
+  static std::vector<const StreamBase*> at_port(const Ports& ports, unsigned port);
+
   bool fire();
   void drain();
-  bool write(const Pending& firing, Cycles earliest);
+  bool write(Firing& firing, Cycles earliest);
   void step(const Phase& phase);
-  template <class Function>
-  void for_each(const std::array<std::vector<StreamBase*>, kMaxPorts>& ports, PortMask mask,
-                Function function);
 
   const ClockDomain& clock_;
   Dataflow& dataflow_;
   const std::uint32_t latency_;
   Schedule schedule_;
   std::uint64_t frame_limit_ = 0;
-  std::array<std::vector<StreamBase*>, kMaxPorts> inputs_;
-  std::array<std::vector<StreamBase*>, kMaxPorts> outputs_;
+  Ports inputs_;
+  Ports outputs_;
 
   Position next_;
   Cycles free_{0};            // first cycle in which the stage can fire again
-  std::deque<Pending> pipe_;  // at most latency_
-  std::vector<Cycles> left_;  // when the last latency_ firings left the pipeline
-  std::uint64_t left_count_ = 0;
+  std::vector<Firing> pipe_;  // the last firings that write, by index & pipe_mask_
+  std::uint64_t pipe_mask_;
+  std::uint64_t entered_ = 0;  // firings that entered the pipeline
+  std::uint64_t left_ = 0;     // of these, firings whose writing date is known
   Cycles last_write_{-1};
   StageStatistics statistics_;
   std::vector<FrameDates> frames_;

@@ -122,10 +122,13 @@ void StreamBase::release() {
 
 void StreamBase::wait_writable(std::uint64_t ahead) {
   write_wait_began_ = writer_clock_.now();
-  while (!write_date_known(ahead)) {
+  // Tokens before this one may be committed meanwhile, so its place counts from the first, not from the next.
+  const std::uint64_t token = statistics_.written + ahead;
+  while (!write_date_known(token - statistics_.written)) {
     writer_waits_ = true;
     sc_core::wait(read_);
   }
+  ahead = token - statistics_.written;
   writer_clock_.wait_until(std::max(writable_at(ahead), ahead == 0 ? last_write_ + Cycles(1) : Cycles(0)));
 }
 

@@ -6,7 +6,9 @@
 
 #include <memory>
 
+#include "tests/timing/date_log.hpp"
 #include "tests/timing/graph.hpp"
+#include "tests/timing/graph_thread.hpp"
 #include "tlm/stage.hpp"
 #include "tlm/stream.hpp"
 
@@ -29,46 +31,12 @@ class GraphStage final : public Stage {
   std::vector<std::unique_ptr<StreamOut<int>>> out;
 };
 
-/// A thread in kernel time that waits and writes (or reads) one token after another.
-class GraphThread final : public sc_core::sc_module {
- public:
-  GraphThread(const sc_core::sc_module_name& name, const ClockDomain& clock, const GraphNode& node)
-      : sc_module(name), clock_(clock), node_(node) {
-    SC_HAS_PROCESS(GraphThread);
-    if (node.kind == GraphNode::Kind::kSource) {
-      out = std::make_unique<StreamOut<int>>("out");
-    } else {
-      in = std::make_unique<StreamIn<int>>("in");
-    }
-    SC_THREAD(run);
-  }
-  std::unique_ptr<StreamIn<int>> in;
-  std::unique_ptr<StreamOut<int>> out;
-
- private:
-  void run() {
-    Cycles ready(0);
-    for (const std::uint32_t stall : node_.stalls) {
-      clock_.wait_until(ready + Cycles(stall));
-      if (out) {
-        for (int i = 0; i < out->size(); ++i) (*out)[i]->wait_writable();
-        for (int i = 0; i < out->size(); ++i) (*out)[i]->commit();
-      } else {
-        (*in)->wait_readable();
-        (*in)->release();
-      }
-      ready = clock_.now() + Cycles(1);
-    }
-  }
-  const ClockDomain& clock_;
-  const GraphNode& node_;
-};
-
 class ModelSimulation {
  public:
   /// `threads`: sources and sinks are kernel threads where bit (node % 64) is set, else actors.
-  ModelSimulation(const Graph& graph, std::uint64_t threads)
-      : dataflow_("dataflow"), dates_(graph.edges.size()) {
+  ModelSimulation(const Graph& given, std::uint64_t threads)
+      : graph_(given), dataflow_("dataflow"), dates_(given.edges.size()) {
+    const Graph& graph = graph_;
     for (std::size_t i = 0; i < graph.periods.size(); ++i) {
       clocks_.push_back(std::make_unique<ClockDomain>(fmt::format("clock_{}", i),
                                                       Hertz(kUnitsPerSecond / graph.periods[i])));
@@ -84,7 +52,7 @@ class ModelSimulation {
       streams_.push_back(std::make_unique<Stream<int>>(fmt::format("s{}", streams_.size()).c_str(), dataflow_,
                                                        clock(graph.nodes[from]), clock(graph.nodes[to]),
                                                        config));
-      log_.push_back(std::make_unique<Log>(dates_[streams_.size() - 1]));
+      log_.push_back(std::make_unique<DateLog>(dates_[streams_.size() - 1]));
       streams_.back()->listen(log_.back().get());
     }
     stages_.resize(graph.nodes.size());
@@ -93,7 +61,7 @@ class ModelSimulation {
       const GraphNode& node = graph.nodes[i];
       const std::string name = fmt::format("n{}", i);
       if (node.kind != GraphNode::Kind::kStage && ((threads >> (i % 64)) & 1u)) {
-        threads_[i] = std::make_unique<GraphThread>(name.c_str(), clock(node), node);
+        threads_[i] = std::make_unique<GraphThread<int>>(name.c_str(), clock(node), node);
       } else {
         stage_nodes_.push_back(node.kind == GraphNode::Kind::kStage ? node : as_stage(node));
         stages_[i] =
@@ -123,13 +91,6 @@ class ModelSimulation {
   const GraphStage& stage(std::size_t i) const { return *stages_[i]; }
 
  private:
-  struct Log final : StreamListener {
-    explicit Log(EdgeDates& d) : dates(d) {}
-    void written(const StreamBase&, Cycles cycle) override { dates.written.push_back(cycle.count()); }
-    void read(const StreamBase&, Cycles cycle) override { dates.read.push_back(cycle.count()); }
-    EdgeDates& dates;
-  };
-
   // A source or sink as the schedule of one frame.
   static GraphNode as_stage(const GraphNode& node) {
     GraphNode stage;
@@ -150,14 +111,15 @@ class ModelSimulation {
     return *clocks_[static_cast<std::size_t>(node.clock)];
   }
 
+  const Graph graph_;
   Dataflow dataflow_;
   std::vector<std::unique_ptr<ClockDomain>> clocks_;
   std::vector<EdgeDates> dates_;
-  std::vector<std::unique_ptr<Log>> log_;
+  std::vector<std::unique_ptr<DateLog>> log_;
   std::vector<std::unique_ptr<Stream<int>>> streams_;
   std::deque<GraphNode> stage_nodes_;
   std::vector<std::unique_ptr<GraphStage>> stages_;
-  std::vector<std::unique_ptr<GraphThread>> threads_;
+  std::vector<std::unique_ptr<GraphThread<int>>> threads_;
 };
 
 }  // namespace parallax::test

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+// The machine's pipeline between four threads that bring and take bursts, and the graph that it is.
+#pragma once
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "platform/pipeline.hpp"
+#include "tests/timing/date_log.hpp"
+#include "tests/timing/graph.hpp"
+#include "tests/timing/graph_thread.hpp"
+
+namespace parallax::test {
+
+/// A pipeline and what its four ends do: for each burst, the cycles that the thread waits before it.
+struct PipelineCase {
+  MachineConfig config;
+  EncodedMap map;
+  std::vector<std::uint32_t> left, right, map_stalls, output;
+};
+
+/// Bursts of one frame at the four ends.
+struct PipelineBursts {
+  PipelineBursts(const MachineConfig& config, const EncodedMap& encoded)
+      : left(burst_count(pixels(encoded), Bytes(config.dma.left.burst_bytes))),
+        right(burst_count(pixels(encoded), Bytes(config.dma.right.burst_bytes))),
+        map(burst_count(encoded.bytes.size(), Bytes(config.dma.map.burst_bytes))),
+        output(
+            burst_count(OutputPacking::row_bytes(encoded.width) * static_cast<std::uint64_t>(encoded.height),
+                        Bytes(config.dma.output.burst_bytes))) {}
+  static std::uint64_t pixels(const EncodedMap& map) {
+    return static_cast<std::uint64_t>(map.width) * static_cast<std::uint64_t>(map.height);
+  }
+  std::uint64_t left, right, map, output;
+};
+
+class PipelineSimulation {
+ public:
+  explicit PipelineSimulation(const PipelineCase& c)
+      : case_(c),
+        clock_("core", Hertz(c.config.clocks.core_hz)),
+        dataflow_("dataflow"),
+        pipeline_("pipeline", case_.config, case_.map, {clock_, dataflow_, c.map.width, c.map.height}),
+        left_node_(end(GraphNode::Kind::kSource, c.left)),
+        right_node_(end(GraphNode::Kind::kSource, c.right)),
+        map_node_(end(GraphNode::Kind::kSource, c.map_stalls)),
+        output_node_(end(GraphNode::Kind::kSink, c.output)),
+        left_("left", clock_, left_node_),
+        right_("right", clock_, right_node_),
+        map_("map", clock_, map_node_),
+        output_("output", clock_, output_node_) {
+    pipeline_.bind(*left_.out, *right_.out, *map_.out, *output_.in);
+    const std::vector<StreamBase*>& streams = dataflow_.streams();
+    dates_.resize(streams.size());
+    for (std::size_t i = 0; i < streams.size(); ++i) {
+      logs_.push_back(std::make_unique<DateLog>(dates_[i]));
+      streams[i]->listen(logs_.back().get());
+    }
+  }
+
+  std::vector<EdgeDates> run() {
+    sc_core::sc_start();
+    for (std::size_t i = 0; i < dates_.size(); ++i) {
+      dates_[i].high_water = dataflow_.streams()[i]->statistics().high_water;
+    }
+    return dates_;
+  }
+  const std::vector<EdgeDates>& dates() const { return dates_; }
+  const Dataflow& dataflow() const { return dataflow_; }
+
+  /// The graph that the pipeline is, edge i being stream i; after run().
+  Graph graph() const {
+    Graph graph;
+    graph.periods = {1};
+    std::map<const StreamBase*, GraphEdge> edges;
+    for (const StageInfo& info : pipeline_.stages()) {
+      const int id = static_cast<int>(graph.nodes.size());
+      graph.nodes.push_back(node(*info.stage));
+      for (unsigned port = 0; port < Stage::kMaxPorts; ++port) {
+        for (const StreamBase* stream : info.stage->input_streams(port)) {
+          edges[stream].to = id;
+          edges[stream].to_port = static_cast<int>(port);
+        }
+        for (const StreamBase* stream : info.stage->output_streams(port)) {
+          edges[stream].from = id;
+          edges[stream].from_port = static_cast<int>(port);
+        }
+      }
+    }
+    const auto add_end = [&](const GraphNode& end, const GraphThread<std::uint8_t>& thread) {
+      const bool source = end.kind == GraphNode::Kind::kSource;
+      for (const StreamBase* stream : dataflow_.streams()) {
+        if ((source ? stream->writer_name() : stream->reader_name()) == thread.name()) {
+          (source ? edges[stream].from : edges[stream].to) = static_cast<int>(graph.nodes.size());
+        }
+      }
+      graph.nodes.push_back(end);
+    };
+    add_end(left_node_, left_);
+    add_end(right_node_, right_);
+    add_end(map_node_, map_);
+    add_end(output_node_, output_);
+    for (const StreamBase* stream : dataflow_.streams()) {
+      edges[stream].depth = stream->depth();
+      graph.edges.push_back(edges[stream]);
+    }
+    return graph;
+  }
+
+ private:
+  static GraphNode end(GraphNode::Kind kind, const std::vector<std::uint32_t>& stalls) {
+    GraphNode node;
+    node.kind = kind;
+    node.stalls = stalls;
+    return node;
+  }
+  static GraphNode node(const Stage& stage) {
+    GraphNode node;
+    node.latency = stage.latency();
+    const Schedule& schedule = stage.schedule();
+    for (const Schedule::Segment& segment : schedule.segments()) {
+      GraphPart part;
+      part.repeat = segment.repeat;
+      for (std::uint32_t i = 0; i < segment.phase_count; ++i) {
+        part.phases.push_back(schedule.phases()[segment.first_phase + i]);
+      }
+      node.parts.push_back(part);
+    }
+    return node;
+  }
+
+  const PipelineCase case_;
+  ClockDomain clock_;
+  Dataflow dataflow_;
+  Pipeline pipeline_;
+  GraphNode left_node_, right_node_, map_node_, output_node_;
+  GraphThread<std::uint8_t> left_, right_, map_, output_;
+  std::vector<EdgeDates> dates_;
+  std::vector<std::unique_ptr<DateLog>> logs_;
+};
+
+}  // namespace parallax::test

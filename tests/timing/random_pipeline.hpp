@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+// Small machines with random paces, latencies, windows, depths, bursts and maps.
+#pragma once
+
+#include <rapidcheck.h>
+
+#include "tests/modules/random_maps.hpp"
+#include "tests/timing/pipeline_simulation.hpp"
+
+namespace parallax::test {
+
+enum class Depths { kAutomatic, kRandom };
+
+inline int number(int low, int high) { return *rc::gen::inRange(low, high + 1); }
+inline std::uint32_t count(int low, int high) { return static_cast<std::uint32_t>(number(low, high)); }
+
+/// Stalls before the tokens of one end, drawn from a seed so that there is little to shrink.
+inline std::vector<std::uint32_t> random_stalls(std::uint64_t tokens) {
+  std::vector<std::uint32_t> all(tokens, 0);
+  const int mode = number(0, 3);
+  std::uint32_t state = count(1, 1000000);
+  for (std::uint32_t& stall : all) {
+    state = state * 1664525u + 1013904223u;
+    const std::uint32_t draw = state >> 20;
+    stall = mode == 0 ? 0 : mode == 1 ? draw % 8 : mode == 2 ? (draw % 6 == 0 ? draw % 200 : 0) : draw % 64;
+  }
+  return all;
+}
+
+inline StageTiming random_timing() {
+  StageTiming timing;
+  timing.interval = number(0, 7) == 0 ? 2 : 1;
+  timing.latency = count(0, 24);
+  if (number(0, 3) == 0) timing.row_overhead = count(0, 5);
+  if (number(0, 3) == 0) timing.frame_overhead = count(0, 60);
+  return timing;
+}
+
+inline DmaPortConfig random_port() {
+  DmaPortConfig port;
+  port.data_bits = 8u << count(0, 3);
+  port.burst_bytes = port.data_bits / 8 * count(1, 12);
+  port.fifo_bytes = port.burst_bytes * count(1, 6);
+  return port;
+}
+
+/// `frames` frames of a small image.
+inline PipelineCase random_pipeline(Depths depths, std::uint64_t frames) {
+  PipelineCase c;
+  MachineConfig& config = c.config;
+  const int width = number(1, 48);
+  const int height = number(1, 16);
+  config.rectification.range.window = 2 * number(0, 4) + 1;
+  config.census.window_width = 2 * number(1, 3) + 1;
+  config.census.window_height = 2 * number(0, 3) + 1;
+  config.matching.parallelism = number(1, 8);
+  config.matching.iterations = number(1, 3);
+  config.consistency.enabled = number(0, 3) != 0;
+  config.texture.enabled = number(0, 3) != 0;
+  config.texture.window = 2 * number(1, 4) + 1;
+  config.speckle.iterations = number(0, 2);
+  config.gap_interpolation.enabled = number(0, 1) != 0;
+  config.gap_interpolation.l_max = number(0, 8);
+  config.noise_reduction.enabled = number(0, 3) != 0;
+  PipelineTiming& time = config.timing;
+  for (StageTiming* timing : {&time.map_decoder, &time.rectification, &time.census, &time.matching,
+                              &time.subpixel, &time.uniqueness, &time.consistency, &time.texture,
+                              &time.speckle, &time.gap_interpolation, &time.noise_reduction}) {
+    *timing = random_timing();
+  }
+  for (DmaPortConfig* port : {&config.dma.left, &config.dma.right, &config.dma.map, &config.dma.output}) {
+    *port = random_port();
+  }
+  config.streams.default_depth = count(1, 20);
+  if (depths == Depths::kRandom) {
+    for (StreamDepth& stream : config.streams.depths) {
+      if (number(0, 4) == 0) stream.tokens = count(1, number(0, 1) == 0 ? 20 : 400);
+    }
+  }
+  const OffsetRange& range = config.rectification.range;
+  const int kind = number(0, 2);
+  c.map = encode(kind == 0   ? identity_map(width, height, range)
+                 : kind == 1 ? lens_map(width, height, range)
+                             : noise_map(width, height, range, count(1, 1000000)));
+  const PipelineBursts bursts(config, c.map);
+  c.left = random_stalls(frames * bursts.left);
+  c.right = random_stalls(frames * bursts.right);
+  c.map_stalls = random_stalls(frames * bursts.map);
+  c.output = random_stalls(frames * bursts.output);
+  return c;
+}
+
+}  // namespace parallax::test

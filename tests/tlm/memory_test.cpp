@@ -1,0 +1,380 @@
+// SPDX-License-Identifier: Apache-2.0
+// The memory as its data sheet: bandwidth, latency, arbitration, queues, and the rules of the base protocol.
+#include "tlm/memory.hpp"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <random>
+
+#include "tests/timing/in_child.hpp"
+#include "tests/tlm/protocol_initiator.hpp"
+#include "tests/tlm/thread.hpp"
+
+namespace parallax::test {
+namespace {
+
+using Nanoseconds = std::vector<double>;
+
+// A cycle is a nanosecond; 8 B a cycle; 10 cycles of latency.
+MemoryTiming timing() {
+  MemoryTiming t;
+  t.size = Bytes(1 << 16);
+  t.bytes_per_cycle = Bytes(8);
+  t.latency = Cycles(10);
+  return t;
+}
+
+struct Bench {
+  explicit Bench(const MemoryTiming& t = timing(), int ports = 1, std::int64_t hz = 1'000'000'000)
+      : clock("memory", Hertz(hz)), memory("memory", t, clock) {
+    for (int i = 0; i < ports; ++i) {
+      initiators.push_back(std::make_unique<ProtocolInitiator>(sc_core::sc_gen_unique_name("initiator")));
+      initiators.back()->socket.bind(memory.socket);
+    }
+  }
+  ProtocolInitiator& operator[](std::size_t i) { return *initiators[i]; }
+  // The body runs as a thread of its own.
+  void thread(std::function<void()> body) {
+    threads.push_back(std::make_unique<Thread>(sc_core::sc_gen_unique_name("thread"), std::move(body)));
+  }
+  Nanoseconds responses(std::size_t port = 0) const {
+    Nanoseconds all;
+    for (const auto& t : initiators[port]->times) all.push_back(t.begin_response.to_seconds() * 1e9);
+    return all;
+  }
+  Nanoseconds end_requests(std::size_t port = 0) const {
+    Nanoseconds all;
+    for (const auto& t : initiators[port]->times) all.push_back(t.end_request.to_seconds() * 1e9);
+    return all;
+  }
+  ClockDomain clock;
+  Memory memory;
+  std::vector<std::unique_ptr<ProtocolInitiator>> initiators;
+  std::vector<std::unique_ptr<Thread>> threads;
+};
+
+void expect_near(const Nanoseconds& have, const Nanoseconds& want) {
+  ASSERT_EQ(have.size(), want.size());
+  for (std::size_t i = 0; i < want.size(); ++i) EXPECT_NEAR(have[i], want[i], 1e-3) << "request " << i;
+}
+
+template <class Number>
+sc_core::sc_time ns(Number t) {
+  return sc_core::sc_time(static_cast<double>(t), sc_core::SC_NS);
+}
+
+TEST(Memory, ABurstTakesItsBytesAtTheBusRateRoundedUp) {
+  Bench b;
+  b.thread([&] {
+    for (const std::size_t bytes : {128u, 100u, 8u, 1u}) {
+      b[0].send(::tlm::TLM_READ_COMMAND, 0, bytes);
+      b[0].wait_for_all();
+    }
+  });
+  sc_core::sc_start();
+  expect_near(b.responses(), {26, 26 + 23, 49 + 11, 60 + 11});
+}
+
+TEST(Memory, EfficiencyStretchesTheBus) {
+  MemoryTiming t = timing();
+  t.efficiency = 80;  // 6.4 B a cycle
+  Bench b(t);
+  b.thread([&] {
+    for (const std::size_t bytes : {128u, 100u, 1u}) {
+      b[0].send(::tlm::TLM_READ_COMMAND, 0, bytes);
+      b[0].wait_for_all();
+    }
+  });
+  sc_core::sc_start();
+  expect_near(b.responses(), {30, 30 + 26, 56 + 11});
+  EXPECT_DOUBLE_EQ(b.memory.usable_bandwidth(), 6.4e9);
+}
+
+TEST(Memory, BurstsFollowWithoutAGapAndLatenciesOverlap) {
+  Bench b;
+  b.thread([&] {
+    for (int i = 0; i < 6; ++i) b[0].send(::tlm::TLM_READ_COMMAND, 0, 64);
+  });
+  sc_core::sc_start();
+  expect_near(b.responses(), {18, 26, 34, 42, 50, 58});
+}
+
+TEST(Memory, ServiceBeginsAtAClockEdge) {
+  Bench b(timing(), 1, 300'000'000);
+  b.thread([&] {
+    sc_core::wait(4, sc_core::SC_NS);  // edge 2 is at 6.67 ns
+    b[0].send(::tlm::TLM_READ_COMMAND, 0, 8);
+  });
+  sc_core::sc_start();
+  expect_near(b.responses(), {(2 + 1 + 10) / 0.3});
+}
+
+TEST(Memory, RoundRobinServesThePortsInTurn) {
+  Bench b(timing(), 3);
+  for (std::size_t port = 0; port < 3; ++port) {
+    b.thread([&b, port] {
+      for (int i = 0; i < 2; ++i) b[port].send(::tlm::TLM_READ_COMMAND, 0, 64);
+    });
+  }
+  sc_core::sc_start();
+  expect_near(b.responses(0), {18, 42});
+  expect_near(b.responses(1), {26, 50});
+  expect_near(b.responses(2), {34, 58});
+}
+
+TEST(Memory, FixedPriorityServesTheFirstPortFirst) {
+  MemoryTiming t = timing();
+  t.arbitration = MemoryTiming::Arbitration::kFixedPriority;
+  Bench b(t, 3);
+  for (std::size_t port = 0; port < 3; ++port) {
+    b.thread([&b, port] {
+      for (int i = 0; i < 2; ++i) b[port].send(::tlm::TLM_READ_COMMAND, 0, 64);
+    });
+  }
+  sc_core::sc_start();
+  expect_near(b.responses(0), {18, 26});
+  expect_near(b.responses(1), {34, 42});
+  expect_near(b.responses(2), {50, 58});
+}
+
+TEST(Memory, AFullQueueHoldsBackTheEndOfTheRequest) {
+  MemoryTiming t = timing();
+  t.queue_depth = 2;
+  Bench b(t);
+  b.thread([&] {
+    for (int i = 0; i < 6; ++i) b[0].send(::tlm::TLM_READ_COMMAND, 0, 64);
+  });
+  sc_core::sc_start();
+  // The first leaves the queue at once; each further one makes room when its service begins.
+  expect_near(b.end_requests(), {0, 0, 0, 8, 16, 24});
+  expect_near(b.responses(), {18, 26, 34, 42, 50, 58});
+  EXPECT_EQ(b.memory.statistics(0).latency_largest, ns(58 - 16));  // from BEGIN_REQ, taken or not
+}
+
+TEST(Memory, LatencyCountsFromBeginReqEvenWhenTheRequestIsNotTakenYet) {
+  MemoryTiming t = timing();
+  t.queue_depth = 1;
+  Bench b(t);
+  b.thread([&] {
+    for (int i = 0; i < 3; ++i) b[0].send(::tlm::TLM_READ_COMMAND, 0, 64);
+  });
+  sc_core::sc_start();
+  // BEGIN_REQ at 0, 0 and 0: the second is taken when the first is served, the third waits for that until 8.
+  expect_near(b.end_requests(), {0, 0, 8});
+  EXPECT_EQ(b.memory.statistics(0).latency_sum, ns(18 + 26 + 34));
+  EXPECT_EQ(b.memory.statistics(0).latency_largest, ns(34));
+}
+
+TEST(Memory, AnAnnotatedDelayIsTheTimeOfTheRequest) {
+  MemoryTiming t = timing();
+  t.queue_depth = 1;
+  Bench b(t);
+  b.thread([&] {
+    b[0].send(::tlm::TLM_READ_COMMAND, 0, 64, ns(5.5));  // served at edge 6
+    b[0].send(::tlm::TLM_READ_COMMAND, 0, 64, ns(100));  // its place is free before it comes
+  });
+  sc_core::sc_start();
+  expect_near(b.responses(), {6 + 18, 100 + 18});
+  expect_near(b.end_requests(), {5.5, 100});
+}
+
+TEST(Memory, ALateEndOfAResponseHoldsBackTheNextOneOfThatPortOnly) {
+  Bench b(timing(), 2);
+  b[0].answer = ProtocolInitiator::Answer::kLater;
+  b[0].answer_delay = ns(40);
+  for (std::size_t port = 0; port < 2; ++port) {
+    b.thread([&b, port] {
+      for (int i = 0; i < 3; ++i) b[port].send(::tlm::TLM_READ_COMMAND, 0, 64);
+    });
+  }
+  sc_core::sc_start();
+  expect_near(b.responses(0), {18, 58, 98});
+  expect_near(b.responses(1), {26, 42, 58});
+}
+
+TEST(Memory, AnEndOfAResponseDatedLaterDoesTheSame) {
+  for (const auto answer : {ProtocolInitiator::Answer::kCompleted, ProtocolInitiator::Answer::kUpdated}) {
+    const std::string text = in_child([&] {
+      Bench b;
+      b[0].answer = answer;
+      b[0].answer_delay = ns(40);
+      b.thread([&] {
+        for (int i = 0; i < 3; ++i) b[0].send(::tlm::TLM_READ_COMMAND, 0, 64);
+      });
+      sc_core::sc_start();
+      std::string all;
+      for (const double t : b.responses()) all += std::to_string(t) + " ";
+      return all;
+    });
+    EXPECT_EQ(text, "18.000000 58.000000 98.000000 ");
+  }
+}
+
+// The same requests one after the other, through either interface.
+std::string one_by_one(bool blocking, std::uint32_t seed) {
+  Bench b(timing(), 2, 333'333'333);
+  std::string text;
+  for (std::size_t port = 0; port < 2; ++port) {
+    b.thread([&b, &text, port, blocking, seed] {
+      std::mt19937 random(seed + static_cast<std::uint32_t>(port));
+      std::vector<std::uint8_t> data(256);
+      for (int i = 0; i < 40; ++i) {
+        sc_core::wait(ns(random() % 30));
+        const std::size_t length = 1 + random() % 256;
+        sc_core::sc_time delay = ns(random() % 5);
+        if (blocking) {
+          ::tlm::tlm_generic_payload payload;
+          payload.set_command(::tlm::TLM_READ_COMMAND);
+          payload.set_data_ptr(data.data());
+          payload.set_data_length(static_cast<unsigned>(length));
+          payload.set_streaming_width(static_cast<unsigned>(length));
+          b[port].socket->b_transport(payload, delay);
+          sc_core::wait(delay);
+        } else {
+          b[port].send(::tlm::TLM_READ_COMMAND, 0, length, delay);
+          b[port].wait_for_all();
+        }
+        text += std::to_string(port) + " " + sc_core::sc_time_stamp().to_string() + ", ";
+      }
+    });
+  }
+  sc_core::sc_start();
+  return text;
+}
+
+TEST(Memory, BlockingAndNonBlockingTakeTheSameTime) {
+  for (std::uint32_t seed = 1; seed <= 20; ++seed) {
+    const std::string expected = in_child([&] { return one_by_one(true, seed); });
+    EXPECT_GT(expected.size(), 80u * 5);
+    EXPECT_EQ(in_child([&] { return one_by_one(false, seed); }), expected);
+  }
+}
+
+TEST(Memory, WhatIsWrittenIsRead) {
+  Bench b;
+  b.thread([&] {
+    b[0].send(::tlm::TLM_WRITE_COMMAND, 0x123, 200);  // byte i has the value of its address
+    b[0].send(::tlm::TLM_READ_COMMAND, 0x120, 16);
+    b[0].wait_for_all();
+  });
+  sc_core::sc_start();
+  const std::vector<std::uint8_t> expected{0,    0,    0,    0x23, 0x24, 0x25, 0x26, 0x27,
+                                           0x28, 0x29, 0x2A, 0x2B, 0x2C, 0x2D, 0x2E, 0x2F};
+  EXPECT_EQ(b[0].times[1].data, expected);
+  const MemoryPortStatistics& s = b.memory.statistics(0);
+  EXPECT_EQ(s.written_bytes, 200u);
+  EXPECT_EQ(s.read_bytes, 16u);
+  EXPECT_EQ(s.bytes(), 216u);
+  EXPECT_EQ(s.requests, 2u);
+  EXPECT_EQ(s.bus.count(), 25 + 2);
+}
+
+TEST(Memory, DebugAccessTakesNoTime) {
+  Bench b;
+  const auto access = [&b](::tlm::tlm_command command, std::uint64_t address,
+                           std::vector<std::uint8_t>& data) {
+    ::tlm::tlm_generic_payload payload;
+    payload.set_command(command);
+    payload.set_address(address);
+    payload.set_data_ptr(data.data());
+    payload.set_data_length(static_cast<unsigned>(data.size()));
+    payload.set_streaming_width(payload.get_data_length());
+    return b[0].socket->transport_dbg(payload);
+  };
+  std::vector<std::uint8_t> data{1, 2, 3, 4};
+  std::vector<std::uint8_t> back(4);
+  b.thread([&] {
+    EXPECT_EQ(access(::tlm::TLM_WRITE_COMMAND, (1 << 16) - 4, data), 4u);
+    EXPECT_EQ(access(::tlm::TLM_READ_COMMAND, (1 << 16) - 4, back), 4u);
+    EXPECT_EQ(access(::tlm::TLM_READ_COMMAND, (1 << 16) - 3, data), 0u);  // one byte too far
+  });
+  sc_core::sc_start();
+  EXPECT_EQ(back, data);
+  EXPECT_EQ(sc_core::sc_time_stamp(), sc_core::SC_ZERO_TIME);
+  EXPECT_EQ(b.memory.statistics(0).requests, 0u);
+}
+
+TEST(Memory, RefusesWhatItCannotDo) {
+  Bench b;
+  std::uint8_t enable = 0xFF;
+  b.thread([&] {
+    b[0].send(::tlm::TLM_READ_COMMAND, (1 << 16) - 63, 64);
+    b[0].send(::tlm::TLM_READ_COMMAND, ~0ull - 10, 64);
+    ::tlm::tlm_generic_payload& bytes = b[0].take(::tlm::TLM_READ_COMMAND, 0, 8);
+    bytes.set_byte_enable_ptr(&enable);
+    bytes.set_byte_enable_length(1);
+    b[0].send(bytes);
+    ::tlm::tlm_generic_payload& streaming = b[0].take(::tlm::TLM_READ_COMMAND, 0, 8);
+    streaming.set_streaming_width(4);
+    b[0].send(streaming);
+    b[0].send(::tlm::TLM_READ_COMMAND, (1 << 16) - 64, 64);
+  });
+  sc_core::sc_start();
+  EXPECT_EQ(b[0].times[0].status, ::tlm::TLM_ADDRESS_ERROR_RESPONSE);
+  EXPECT_EQ(b[0].times[1].status, ::tlm::TLM_ADDRESS_ERROR_RESPONSE);
+  EXPECT_EQ(b[0].times[2].status, ::tlm::TLM_BYTE_ENABLE_ERROR_RESPONSE);
+  EXPECT_EQ(b[0].times[3].status, ::tlm::TLM_BURST_ERROR_RESPONSE);
+  EXPECT_EQ(b[0].times[4].status, ::tlm::TLM_OK_RESPONSE);
+}
+
+TEST(Memory, ReportsASecondRequestBeforeTheEndOfTheFirst) {
+  MemoryTiming t = timing();
+  t.queue_depth = 1;
+  Bench b(t);
+  PayloadPool pool(64);
+  b.thread([&] {
+    for (int i = 0; i < 3; ++i) {
+      ::tlm::tlm_generic_payload& payload = pool.take(::tlm::TLM_READ_COMMAND, 0, 8);
+      ::tlm::tlm_phase phase = ::tlm::BEGIN_REQ;
+      sc_core::sc_time delay;
+      b[0].socket->nb_transport_fw(payload, phase, delay);
+    }
+  });
+  try {
+    sc_core::sc_start();
+    FAIL();
+  } catch (const sc_core::sc_report& report) {
+    EXPECT_STREQ(report.get_msg_type(), "/parallax/memory/phase");
+  }
+}
+
+// Many ports, random lengths, pauses and ways to answer; the initiators check the protocol.
+TEST(Memory, KeepsToTheBaseProtocol) {
+  for (std::uint32_t seed = 1; seed <= 30; ++seed) {
+    const std::string text = in_child([seed] {
+      std::mt19937 random(seed);
+      MemoryTiming t = timing();
+      t.queue_depth = 1 + static_cast<std::uint32_t>(random() % 4);
+      if (random() % 2 == 0) t.arbitration = MemoryTiming::Arbitration::kFixedPriority;
+      Bench b(t, 4, 171'999'997);
+      for (std::size_t port = 0; port < 4; ++port) {
+        b[port].answer = static_cast<ProtocolInitiator::Answer>(random() % 3);
+        b[port].answer_delay = ns(random() % 3 == 0 ? random() % 60 : 0);
+        b.thread([&b, port, seed] {
+          std::mt19937 own(seed * 100 + static_cast<std::uint32_t>(port));
+          for (int i = 0; i < 60; ++i) {
+            if (own() % 3 == 0) sc_core::wait(ns(own() % 300));
+            b[port].send(own() % 2 == 0 ? ::tlm::TLM_READ_COMMAND : ::tlm::TLM_WRITE_COMMAND, own() % 1000,
+                         1 + own() % 300, ns(own() % 4 == 0 ? own() % 50 : 0));
+          }
+          b[port].wait_for_all();
+        });
+      }
+      sc_core::sc_start();
+      std::string found;
+      for (std::size_t port = 0; port < 4; ++port) {
+        if (b[port].responses.size() != 60) found += "a request was never answered\n";
+        for (std::size_t i = 0; i < b[port].responses.size(); ++i) {
+          if (b[port].responses[i] != i) found += "answers out of order\n";
+        }
+      }
+      if (::testing::Test::HasFailure()) found += "the protocol was broken\n";
+      return found;
+    });
+    EXPECT_EQ(text, "") << "seed " << seed;
+  }
+}
+
+}  // namespace
+}  // namespace parallax::test

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a stage declares and when it then fires, by dates worked out by hand.
+#include "tlm/stage.hpp"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+#include "tests/timing/model_simulation.hpp"
+
+namespace parallax::test {
+namespace {
+
+using Dates = std::vector<std::int64_t>;
+constexpr std::uint64_t kThreads = ~0ull;
+
+GraphNode stage(std::uint32_t latency, std::vector<GraphPart> parts) {
+  GraphNode node;
+  node.latency = latency;
+  node.parts = std::move(parts);
+  return node;
+}
+GraphNode end(GraphNode::Kind kind, std::vector<std::uint32_t> stalls) {
+  GraphNode node;
+  node.kind = kind;
+  node.stalls = std::move(stalls);
+  return node;
+}
+GraphNode source(std::vector<std::uint32_t> stalls) {
+  return end(GraphNode::Kind::kSource, std::move(stalls));
+}
+GraphNode sink(std::vector<std::uint32_t> stalls) { return end(GraphNode::Kind::kSink, std::move(stalls)); }
+std::vector<std::uint32_t> zeros(std::size_t count) { return std::vector<std::uint32_t>(count, 0); }
+
+// source 0 -> stage 1 -> sink 2; edge 0 into the stage, edge 1 out of it.
+Graph chain(const std::vector<std::uint32_t>& in, const GraphNode& middle,
+            const std::vector<std::uint32_t>& out, std::uint32_t out_depth = 16) {
+  Graph graph;
+  graph.nodes = {source(in), middle, sink(out)};
+  graph.edges = {{0, 0, 1, 0, 16}, {1, 0, 2, 0, out_depth}};
+  return graph;
+}
+
+TEST(Stage, CombinationalReadsAndWritesInOneCycle) {
+  ModelSimulation model(chain(zeros(4), stage(0, {{4, {{1, 1, 1, 1}}}}), zeros(4)), kThreads);
+  const auto dates = model.run();
+  EXPECT_EQ(dates[0].read, Dates({1, 2, 3, 4}));
+  EXPECT_EQ(dates[1].written, Dates({1, 2, 3, 4}));
+}
+
+TEST(Stage, FiresOnceAnInterval) {
+  ModelSimulation model(chain(zeros(4), stage(0, {{4, {{1, 3, 1, 1}}}}), zeros(4)), kThreads);
+  EXPECT_EQ(model.run()[1].written, Dates({1, 4, 7, 10}));
+}
+
+TEST(Stage, AWaitForInputDoesNotShortenTheInterval) {
+  // Tokens are readable in 1, 2 and 10: the third firing is late, the fourth three cycles after it.
+  ModelSimulation model(chain({0, 0, 7, 0}, stage(0, {{4, {{1, 3, 1, 1}}}}), zeros(4)), kThreads);
+  EXPECT_EQ(model.run()[0].read, Dates({1, 4, 10, 13}));
+}
+
+TEST(Stage, WritesLatencyCyclesAfterReading) {
+  ModelSimulation model(chain(zeros(3), stage(5, {{3, {{1, 1, 1, 1}}}}), zeros(3)), kThreads);
+  const auto dates = model.run();
+  EXPECT_EQ(dates[0].read, Dates({1, 2, 3}));
+  EXPECT_EQ(dates[1].written, Dates({6, 7, 8}));
+  EXPECT_EQ(dates[1].read, Dates({7, 8, 9}));
+}
+
+TEST(Stage, ThePipelineHoldsLatencyFiringsUnderBackPressure) {
+  // The sink comes in cycle 20. Firing 0 is in the FIFO, firings 1 to 3 in the three registers; firing 4
+  // enters when firing 1 leaves, one cycle after the read.
+  ModelSimulation model(chain(zeros(6), stage(3, {{6, {{1, 1, 1, 1}}}}), {20, 0, 0, 0, 0, 0}, 1), kThreads);
+  const auto dates = model.run();
+  EXPECT_EQ(dates[0].read, Dates({1, 2, 3, 4, 21, 23}));
+  EXPECT_EQ(dates[1].written, Dates({4, 21, 23, 25, 27, 29}));
+  EXPECT_EQ(dates[1].read, Dates({20, 22, 24, 26, 28, 30}));
+}
+
+TEST(Stage, CombinationalHoldsNothingUnderBackPressure) {
+  ModelSimulation model(chain(zeros(3), stage(0, {{3, {{1, 1, 1, 1}}}}), {20, 0, 0}, 1), kThreads);
+  EXPECT_EQ(model.run()[0].read, Dates({1, 21, 23}));
+}
+
+TEST(Stage, LookAheadReadsBeforeItWritesAndFlushesAfterwards) {
+  // Two pixels ahead, five in all.
+  const GraphNode window = stage(1, {{2, {{1, 1, 1, 0}}}, {3, {{1, 1, 1, 1}}}, {2, {{1, 1, 0, 1}}}});
+  ModelSimulation model(chain(zeros(5), window, zeros(5)), kThreads);
+  const auto dates = model.run();
+  EXPECT_EQ(dates[0].read, Dates({1, 2, 3, 4, 5}));
+  EXPECT_EQ(dates[1].written, Dates({4, 5, 6, 7, 8}));
+}
+
+TEST(Stage, FramesFollowWithoutAGap) {
+  const GraphNode window = stage(1, {{1, {{1, 1, 1, 0}}}, {1, {{1, 1, 1, 1}}}, {1, {{1, 1, 0, 1}}}});
+  ModelSimulation model(chain(zeros(4), window, zeros(4)), kThreads);
+  const auto dates = model.run();
+  EXPECT_EQ(dates[0].read, Dates({1, 2, 4, 5}));
+  EXPECT_EQ(dates[1].written, Dates({3, 4, 6, 7}));
+  const std::vector<FrameDates>& frames = model.stage(1).frames();
+  ASSERT_EQ(frames.size(), 2u);
+  EXPECT_EQ(frames[0].first_firing.count(), 1);
+  EXPECT_EQ(frames[0].last_firing.count(), 3);
+  EXPECT_EQ(frames[0].first_write.count(), 3);
+  EXPECT_EQ(frames[0].last_write.count(), 4);
+  EXPECT_EQ(frames[1].first_firing.count(), 4);
+  EXPECT_EQ(frames[1].last_write.count(), 7);
+}
+
+TEST(Stage, OverheadsKeepItBusyAfterRowsAndFrames) {
+  // Rows of two pixels, 5 idle cycles after each, 100 after the frame of two rows.
+  const GraphNode rows = stage(0, {{2, {{2, 1, 1, 1}, {1, 5, 0, 0}}}, {1, {{1, 100, 0, 0}}}});
+  ModelSimulation model(chain(zeros(6), rows, zeros(6)), kThreads);
+  EXPECT_EQ(model.run()[0].read, Dates({1, 2, 8, 9, 115, 116}));
+  EXPECT_EQ(model.stage(1).statistics().idle.count(), 5 * 3 + 100);
+}
+
+TEST(Stage, AForkWritesBothOrNeither) {
+  Graph graph;
+  graph.nodes = {source(zeros(4)), stage(0, {{4, {{1, 1, 1, 1}}}}), sink(zeros(4)), sink({10, 0, 0, 0})};
+  graph.edges = {{0, 0, 1, 0, 16}, {1, 0, 2, 0, 16}, {1, 0, 3, 0, 2}};
+  ModelSimulation model(graph, kThreads);
+  const auto dates = model.run();
+  EXPECT_EQ(dates[1].written, Dates({1, 2, 11, 12}));  // the slow branch holds two
+  EXPECT_EQ(dates[2].written, dates[1].written);
+  EXPECT_EQ(model.stream(1).statistics().blocked_on_full.count(), 0);
+  EXPECT_EQ(model.stage(1).statistics().blocked.count(), 11 - 3);
+}
+
+TEST(Stage, TwoOutputsOfDifferentRates) {
+  // Port 0 in each of three beats, port 1 in the last one; the input in the first one.
+  Graph graph;
+  graph.nodes = {source(zeros(2)), stage(2, {{2, {{1, 1, 1, 1}, {1, 1, 0, 1}, {1, 1, 0, 3}}}}),
+                 sink(zeros(6)), sink(zeros(2))};
+  graph.edges = {{0, 0, 1, 0, 4}, {1, 0, 2, 0, 4}, {1, 1, 3, 0, 4}};
+  ModelSimulation model(graph, kThreads);
+  const auto dates = model.run();
+  EXPECT_EQ(dates[0].read, Dates({1, 4}));
+  EXPECT_EQ(dates[1].written, Dates({3, 4, 5, 6, 7, 8}));
+  EXPECT_EQ(dates[2].written, Dates({5, 8}));
+}
+
+TEST(Stage, AJoinWaitsForTheLaterInput) {
+  Graph graph;
+  graph.nodes = {source(zeros(2)), source({6, 0}), stage(0, {{2, {{1, 1, 3, 1}}}}), sink(zeros(2))};
+  graph.edges = {{0, 0, 2, 0, 4}, {1, 0, 2, 1, 4}, {2, 0, 3, 0, 4}};
+  ModelSimulation model(graph, kThreads);
+  const auto dates = model.run();
+  EXPECT_EQ(dates[0].read, Dates({7, 8}));
+  EXPECT_EQ(dates[1].read, Dates({7, 8}));
+  // The delay is the later input's alone.
+  EXPECT_EQ(model.stream(0).statistics().starved_on_empty.count(), 0);
+  EXPECT_EQ(model.stream(1).statistics().starved_on_empty.count(), 7);
+}
+
+TEST(Stage, AFrameLimitEndsASource) {
+  Graph graph;
+  graph.nodes = {source({2, 3, 0}), sink(zeros(3))};
+  graph.edges = {{0, 0, 1, 0, 4}};
+  ModelSimulation model(graph, 0);  // source and sink as stages, of one frame each
+  EXPECT_EQ(model.run()[0].written, Dates({2, 6, 7}));
+  EXPECT_EQ(model.stage(0).frames().size(), 1u);
+}
+
+TEST(Stage, ItsTimeIsAccountedFor) {
+  // Readable in 1..4; the sink frees the only place in 10, 12, ...
+  ModelSimulation model(chain(zeros(4), stage(0, {{4, {{1, 2, 1, 1}}}}), {10, 0, 0, 0}, 1), kThreads);
+  const auto dates = model.run();
+  EXPECT_EQ(dates[0].read, Dates({1, 11, 13, 15}));
+  const StageStatistics& s = model.stage(1).statistics();
+  EXPECT_EQ(s.firings, 4u);
+  EXPECT_EQ(s.starved.count(), 1);  // from 0 to 1
+  EXPECT_EQ(s.blocked.count(), 11 - 3);
+  EXPECT_EQ(s.busy.count(), 4 * 2);
+  EXPECT_EQ(s.idle.count(), 0);
+  // Every cycle up to the end of the last firing is one of these.
+  EXPECT_EQ((s.starved + s.blocked + s.busy + s.idle).count(), 15 + 2);
+}
+
+TEST(Stage, ItsPortsCanBeLookedUp) {
+  Graph graph;
+  graph.nodes = {source(zeros(1)), stage(0, {{1, {{1, 1, 1, 1}}}}), sink(zeros(1)), sink(zeros(1))};
+  graph.edges = {{0, 0, 1, 0, 16}, {1, 0, 2, 0, 16}, {1, 0, 3, 0, 2}};
+  ModelSimulation model(graph, kThreads);
+  model.run();
+  using Streams = std::vector<const StreamBase*>;
+  EXPECT_EQ(model.stage(1).input_streams(0), Streams({&model.stream(0)}));
+  EXPECT_EQ(model.stage(1).output_streams(0), Streams({&model.stream(1), &model.stream(2)}));
+  EXPECT_EQ(model.stage(1).input_streams(1), Streams());
+}
+
+TEST(Stage, AScheduleOfPortsThatDoNotExistIsRefused) {
+  ModelSimulation model(chain(zeros(1), stage(0, {{1, {{1, 1, 0b10, 1}}}}), zeros(1)), kThreads);
+  EXPECT_THROW(model.run(), std::logic_error);
+}
+
+}  // namespace
+}  // namespace parallax::test
