@@ -25,13 +25,14 @@ void count_differences(std::uint8_t code, const std::uint8_t* __restrict others,
 
 }  // namespace
 
-HammingRow::HammingRow(DisparityRange range, OutsideCost outside, int width, int code_bits)
-    : range_(range),
-      outside_(outside),
+HammingRow::HammingRow(const MatchingConfig& config, int width, int code_bits)
+    : range_(config.range()),
+      outside_(config.outside_cost),
       width_(width),
       code_bits_(code_bits),
+      weight_(static_cast<std::uint8_t>(config.cost_weight)),
       planes_((code_bits + 7) / 8),
-      plane_size_(width + range.last()) {
+      plane_size_(width + range_.last()) {
   right_.resize(static_cast<std::size_t>(planes_) * static_cast<std::size_t>(plane_size_));
 }
 
@@ -52,6 +53,9 @@ void HammingRow::compute(const CensusCode* left, const CensusCode* right, std::u
     if (outside_ == OutsideCost::kMaximum) {
       const int inside = std::clamp(x - range_.offset + 1, 0, count);
       std::fill(costs + inside, costs + count, static_cast<std::uint8_t>(code_bits_));
+    }
+    if (weight_ != 1) {
+      for (int k = 0; k < count; ++k) costs[k] = static_cast<std::uint8_t>(costs[k] * weight_);
     }
   }
 }

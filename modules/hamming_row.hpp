@@ -10,10 +10,10 @@
 namespace parallax {
 
 /// Matching costs C of one row (see Matching): Hamming distances of the left codes to the right codes of each
-/// disparity, one byte a cost.
+/// disparity, times the weight, one byte a cost.
 class HammingRow {
  public:
-  HammingRow(DisparityRange range, OutsideCost outside, int width, int code_bits);
+  HammingRow(const MatchingConfig& config, int width, int code_bits);
 
   /// `costs` holds width * range.count bytes.
   void compute(const CensusCode* left, const CensusCode* right, std::uint8_t* costs);
@@ -23,6 +23,7 @@ class HammingRow {
   OutsideCost outside_;
   int width_;
   int code_bits_;
+  std::uint8_t weight_;
   int planes_;                       ///< bytes of a code
   int plane_size_;                   ///< width, then the pixels left of the image
   std::vector<std::uint8_t> right_;  ///< byte planes of the right row, mirrored: disparities ascend in memory

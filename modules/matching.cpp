@@ -17,6 +17,7 @@ namespace {
 
 constexpr int kMaxDisparities = 256;
 constexpr int kMaxPenalty = 255;
+constexpr int kMaxCostWeight = 4;  // a weighted cost of 63 bits fits in a byte
 
 int bits_for(int largest) {
   int bits = 1;
@@ -68,6 +69,7 @@ void MatchingConfig::validate() const {
                     disparity_offset, iterations, parallelism, disparity_offset + iterations * parallelism,
                     kMaxDisparities));
   }
+  check("cost_weight", cost_weight, 1, kMaxCostWeight);
   check("p1", p1, 0, kMaxPenalty);
   check("p2", p2, 0, kMaxPenalty);
   if (p1 >= p2) throw UserError(fmt::format("matching.p1 = {}: must be below matching.p2 = {}", p1, p2));
@@ -84,7 +86,7 @@ struct Matching::State {
         height(rows),
         code_bits(bits),
         count(matching.range().count),
-        hamming(matching.range(), matching.outside_cost, columns, bits),
+        hamming(matching, columns, bits),
         first_pass(make_paths(matching, columns, false)),
         second_pass(make_paths(matching, columns, true)),
         costs(product(columns, count)),
@@ -100,6 +102,8 @@ struct Matching::State {
       frame_sums.resize(product(width, height) * static_cast<std::size_t>(count));
     }
   }
+
+  int largest_cost() const { return config.cost_weight * code_bits; }
 
   void match(const CensusCode* left, const CensusCode* right, Cost* out) {
     hamming.compute(left, right, costs.data());
@@ -174,7 +178,7 @@ void Matching::push(const CensusCode* left, const CensusCode* right, const RowSi
 }
 
 int Matching::cost_bits() const {
-  return bits_for(path_count(state_->config.paths) * (state_->code_bits + kMaxPenalty));
+  return bits_for(path_count(state_->config.paths) * (state_->largest_cost() + kMaxPenalty));
 }
 
 int Matching::look_ahead_rows() const { return state_->second_pass.empty() ? 0 : state_->height - 1; }
@@ -186,7 +190,7 @@ int Matching::look_ahead_pixels() const {
 std::int64_t Matching::storage_bits() const {
   const State& s = *state_;
   const std::int64_t width = s.width;
-  const int path_bits = bits_for(s.code_bits + kMaxPenalty);
+  const int path_bits = bits_for(s.largest_cost() + kMaxPenalty);
   const std::int64_t pixel_bits = std::int64_t{path_bits} * (s.count + 1);  // with the minimum
   const int northern = path_count(s.config.paths & (kPathNW | kPathN | kPathNE));
   const int southern = path_count(s.config.paths & kSouthernPaths);
@@ -195,7 +199,7 @@ std::int64_t Matching::storage_bits() const {
   std::int64_t bits = pixel_bits * (width * std::max(northern, southern) + horizontal);
   bits += std::int64_t{s.code_bits} * s.config.range().last();
   if (s.config.paths & kPathE) {
-    bits += width * s.count * (bits_for(s.code_bits) + cost_bits());
+    bits += width * s.count * (bits_for(s.largest_cost()) + cost_bits());
   }
   return bits;
 }
@@ -205,7 +209,7 @@ std::int64_t Matching::external_storage_bits() const {
   if (s.second_pass.empty()) return 0;
   const int first_paths = path_count(s.config.paths & ~kSouthernPaths);
   const std::int64_t pixels = std::int64_t{s.width} * s.height;
-  const int sum_bits = first_paths == 0 ? 0 : bits_for(first_paths * (s.code_bits + kMaxPenalty));
+  const int sum_bits = first_paths == 0 ? 0 : bits_for(first_paths * (s.largest_cost() + kMaxPenalty));
   return pixels * (std::int64_t{s.count} * sum_bits + 2 * s.code_bits);
 }
 

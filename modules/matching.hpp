@@ -49,8 +49,11 @@ struct MatchingConfig {
   int parallelism = 32;  ///< p, comparisons per iteration, 1..256; S (paper)
   int iterations = 4;  ///< n_i per pixel, 1..256; 4 for 128 disparities, 8 for 256 (D); offset + range <= 256
   int disparity_offset = 0;  ///< o_d, px, 0..255; offset + range <= 256; S
-  int p1 = 8;                ///< penalty for a change of one disparity, 0..255, p1 < p2; S (device default)
-  int p2 = 42;               ///< penalty for a larger change, 0..255; S (device default)
+  /// Weight of a differing census bit against p1 and p2, 1..4. Own choice: the device's penalties are known,
+  /// the unit they count in is not.
+  int cost_weight = 1;
+  int p1 = 8;   ///< penalty for a change of one disparity, 0..255, p1 < p2; S (device default)
+  int p2 = 42;  ///< penalty for a larger change, 0..255; S (device default)
   unsigned paths = kFourPaths;  ///< set of PathBit, at least one; I: one pass over the image
   OutsideCost outside_cost =
       OutsideCost::kReplicate;              ///< own choice: fewest false matches at the left border
@@ -63,12 +66,13 @@ struct MatchingConfig {
 /// Semi-global matching: census codes of a rectified pair to summed path costs.
 ///
 /// With D = range().count and d = o_d + k, k = 0..D-1:
-///   C(x, y, k)   = number of bits in which left(x, y) and right(x - d, y) differ; OutsideCost when x - d <
-///   0. L_r(p, k)    = C(p, k) + min(L_r(q, k), L_r(q, k-1) + P1, L_r(q, k+1) + P1, m + P2) - m,
+///   C(x, y, k)   = cost_weight * number of bits in which left(x, y) and right(x - d, y) differ; OutsideCost
+///                  (weighted as well) when x - d < 0.
+///   L_r(p, k)    = C(p, k) + min(L_r(q, k), L_r(q, k-1) + P1, L_r(q, k+1) + P1, m + P2) - m,
 ///                  q = predecessor of p along path r, m = min_k L_r(q, k), terms with k-1 < 0 or k+1 >= D
 ///                  left out; L_r(p, k) = C(p, k) where p has no predecessor (PathStart).
 ///   output(p, k) = sum over the paths of L_r(p, k).
-/// L_r <= code_bits + P2 <= 318, so that the sum of eight paths fits in 12 bits.
+/// L_r <= cost_weight * code_bits + P2 <= 507, so that the sum of eight paths fits in 12 bits.
 ///
 /// Without southern paths nothing larger than some rows is held. With them the hardware writes the sums of
 /// the first pass (`external_storage_bits`) and both images' codes to memory and reads them back bottom up;

@@ -6,7 +6,7 @@
 namespace parallax {
 namespace {
 
-/// Above every path cost (at most 318), and no overflow when a penalty (at most 255) is added.
+/// Above every path cost (at most 507), and no overflow when a penalty (at most 255) is added.
 constexpr std::int16_t kNever = 0x3FFF;
 
 std::int16_t min16(std::int16_t a, std::int16_t b) { return a < b ? a : b; }

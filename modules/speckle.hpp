@@ -17,7 +17,7 @@ struct SpeckleConfig {
   /// two fields is our own, chosen on real pairs (tests/fidelity/quality_test.cpp).
   int window = 5;
   /// Smallest share of the window, in percent, that must be similar to the centre. 0..100. Own choice.
-  int min_similar_percent = 40;
+  int min_similar_percent = 36;
   /// Disparities are similar when they differ by at most this, in 1/16 px. 0..4094. Own choice.
   int max_difference = 16;
 

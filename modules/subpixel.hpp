@@ -16,7 +16,9 @@ enum class SubpixelCurve { kNone, kParabola, kEquiangular };
 enum class SubpixelRounding { kTruncate, kNearest };
 
 struct SubpixelConfig {
-  SubpixelCurve curve = SubpixelCurve::kParabola;           ///< S: "a curve is fitted"; which one: own choice
+  /// S: "a curve is fitted"; which one: own choice. Census costs rise linearly beside their minimum, so that
+  /// the equiangular fit locks less to whole pixels than the parabola.
+  SubpixelCurve curve = SubpixelCurve::kEquiangular;
   SubpixelRounding rounding = SubpixelRounding::kTruncate;  ///< own choice
   TieRule winner = TieRule::kLowest;                        ///< own choice
   bool mask_border = true;                                  ///< S (device's "mask border pixels", default on)

@@ -10,7 +10,7 @@ namespace parallax {
 
 namespace {
 
-constexpr std::uint32_t kStepsPerGreyLevel = 16;  ///< unit of the score
+constexpr std::uint32_t kStepsPerGreyLevel = 32;  ///< unit of the score
 
 }  // namespace
 

@@ -15,8 +15,8 @@ struct TextureConfig {
   /// Off: disparities pass unchanged, no look-ahead. Default on (S, device software).
   bool enabled = true;
   /// t_t, a pixel whose score is below is invalidated. Range 0..63, default 10 (S, device's sensitivity). The
-  /// unit, 1/16 grey level of mean horizontal contrast, is our own choice: the device's mapping is not
-  /// published.
+  /// unit, 1/32 grey level of mean horizontal contrast, is our own choice: the device's mapping is not
+  /// published. With it the default spares surfaces of which the matcher still makes sense.
   int threshold = 10;
   /// Width and height of the neighbourhood in px, odd, 3..15. Own choice: the paper says "local
   /// neighborhood".
@@ -32,9 +32,9 @@ struct TextureConfig {
 /// counts (replicate). The contrast sum of pixel (x, y) takes all horizontal neighbours that lie in its
 /// window:
 ///   S(x, y) = sum over v = y-h..y+h, u = x-h+1..x+h of |I(u, v) - I(u-1, v)|
-/// and the score is the mean contrast in 1/16 grey levels, s_t = 16 * S / (window * (window - 1)).
+/// and the score is the mean contrast in 1/32 grey levels, s_t = 32 * S / (window * (window - 1)).
 /// A valid disparity becomes invalid (Cause::kTexture) when s_t < threshold, compared exactly:
-///   16 * S < threshold * window * (window - 1).
+///   32 * S < threshold * window * (window - 1).
 /// An invalid one keeps its cause. Only horizontal contrast counts because the search runs along rows: a
 /// horizontal edge does not tell where on the row a pixel belongs.
 ///

@@ -20,7 +20,7 @@ void describe(Schema& schema, TextureConfig& config) {
   schema.boolean("texture.enabled", config.enabled, "Whether disparities in plain regions are made invalid.",
                  stated(kDeviceSoftware));
   schema.integer(
-      "texture.threshold", config.threshold, {0, 63}, "1/8 grey level",
+      "texture.threshold", config.threshold, {0, 63}, "1/32 grey level",
       "Least texture score (t_t): mean contrast of horizontal neighbours in the window.",
       stated("parameters of the device's own software: sensitivity 10 of 63; the unit is our own choice"));
   schema.integer("texture.window", config.window, {3, 15}, "px",

@@ -68,12 +68,14 @@ void describe(Schema& schema, MatchingConfig& config) {
                  "Smallest disparity (o_d); offset and range together are at most 256.",
                  stated(kDeviceSoftware));
   schema.integer(
-      "matching.p1", config.p1, {0, 255}, "bits",
-      "Penalty for a disparity change of one along a path, in differing census bits; below matching.p2.",
-      stated(kDeviceSoftware));
-  schema.integer("matching.p2", config.p2, {0, 255}, "bits",
-                 "Penalty for a larger disparity change along a path, in differing census bits.",
+      "matching.cost_weight", config.cost_weight, {1, 4}, "units",
+      "Cost of one differing census bit, in the unit of the penalties matching.p1 and matching.p2.",
+      chosen("the penalties of the device are known, their unit is not"));
+  schema.integer("matching.p1", config.p1, {0, 255}, "units",
+                 "Penalty for a disparity change of one along a path; below matching.p2.",
                  stated(kDeviceSoftware));
+  schema.integer("matching.p2", config.p2, {0, 255}, "units",
+                 "Penalty for a larger disparity change along a path.", stated(kDeviceSoftware));
   schema.name_set(
       "matching.paths", config.paths,
       {{"w", kPathW},
@@ -137,7 +139,8 @@ void describe(Schema& schema, UniquenessConfig& config) {
                  stated(kDeviceSoftware));
   schema.integer("uniqueness.factor", config.factor, {256, 4096}, "1/256",
                  "Uniqueness factor (q): the lowest cost times q must be below the next best one.",
-                 inferred("the device's default sensitivity 65 of 256, taken as q = 1 + 65/256"));
+                 chosen("how the device's sensitivity, 65 of 256 by default, maps to q is not published; "
+                        "chosen on pairs with ground truth"));
   schema.boolean("uniqueness.neighbours_are_rivals", config.neighbours_are_rivals,
                  "Whether the two disparities beside the best one count as the next best.",
                  chosen("they belong to the same minimum"));

@@ -17,11 +17,12 @@ UnpackerConfig map_bursts(const EncodedMap& map, const DmaPortConfig& port) {
   return {map.bytes.size(), Bytes(port.burst_bytes), Bytes(port.data_bits / 8), 0};
 }
 
-// Bits of a sum of path costs: each path costs at most code bits + P2 (matching.hpp).
+// Bits of a sum of path costs: each path costs at most weighted code bits + P2 (matching.hpp).
 std::int64_t cost_bits(const MachineConfig& config) {
   std::int64_t paths = 0;
   for (unsigned set = config.matching.paths; set != 0; set &= set - 1) ++paths;
-  const std::int64_t largest = paths * (config.census.code_bits() + config.matching.p2);
+  const std::int64_t largest =
+      paths * (config.matching.cost_weight * config.census.code_bits() + config.matching.p2);
   std::int64_t bits = 1;
   while ((largest >> bits) != 0) ++bits;
   return bits;

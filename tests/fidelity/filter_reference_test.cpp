@@ -17,11 +17,11 @@ TEST(FilterReference, RealDisparities) {
   if (!scene) GTEST_SKIP() << "opencv-doc is not installed";
   const int width = scene->left.cols;
   const int height = scene->left.rows;
-  ChainConfig config;
+  MachineConfig config = shipped_config();
   config.texture.threshold = 40;  // enough to take part in this well-textured scene
   const std::vector<Disparity> filtered_by_kernels = run_chain(config, scene->left, scene->right);
 
-  ChainConfig unfiltered = config;
+  MachineConfig unfiltered = config;
   unfiltered.texture.enabled = unfiltered.gap_interpolation.enabled = unfiltered.noise_reduction.enabled =
       false;
   unfiltered.speckle.iterations = 0;

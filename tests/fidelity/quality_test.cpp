@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The whole chain with its default parameters on real pairs, against OpenCV StereoSGBM on the same pixels.
+// The whole chain as the shipped preset sets it, on real pairs, against OpenCV StereoSGBM on the same pixels.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@
 namespace parallax::test {
 namespace {
 
-constexpr double kBadMargin = 1.0;       ///< bad-2.0 may be this much above StereoSGBM's, percentage points
+constexpr double kBadMargin = 0.0;       ///< bad-2.0 may be this much above StereoSGBM's, percentage points
 constexpr double kCoverageMargin = 8.0;  ///< coverage may be this much below, percentage points
 
 struct SgbmVariant {
@@ -44,7 +44,7 @@ std::vector<Disparity> sgbm(const SgbmVariant& variant, const StereoScene& scene
 }
 
 std::vector<Disparity> chain_disparities(const StereoScene& scene) {
-  ChainConfig config;
+  MachineConfig config = shipped_config();
   config.matching.iterations = scene.disparities / config.matching.parallelism;
   return run_chain(config, scene.left, scene.right);
 }
@@ -129,15 +129,15 @@ TEST(Quality, RoadScenes) {
   print_header();
   for (const StereoScene& scene : scenes) {
     const Comparison comparison = measure(scene)[0];
-    EXPECT_LE(comparison.more_bad, 2.0) << scene.name;
-    EXPECT_GE(comparison.more_coverage, -22) << scene.name;
+    EXPECT_LE(comparison.more_bad, 0.5) << scene.name;
+    EXPECT_GE(comparison.more_coverage, -18) << scene.name;
   }
 }
 
 TEST(Quality, EachFilterDoesItsPart) {
   const auto scene = aloe_scene();
   if (!scene) GTEST_SKIP() << "opencv-doc is not installed";
-  ChainConfig config;
+  MachineConfig config = shipped_config();
   config.texture.enabled = config.gap_interpolation.enabled = config.noise_reduction.enabled = false;
   config.speckle.iterations = 0;
   const auto score = [&] {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <opencv2/core.hpp>
+#include <string>
 #include <vector>
 
 #include "modules/census.hpp"
@@ -14,20 +15,14 @@
 #include "modules/subpixel.hpp"
 #include "modules/texture.hpp"
 #include "modules/uniqueness.hpp"
+#include "platform/configuration.hpp"
 
 namespace parallax::test {
 
-struct ChainConfig {
-  CensusConfig census;
-  MatchingConfig matching;
-  SubpixelConfig subpixel;
-  UniquenessConfig uniqueness;
-  ConsistencyConfig consistency;
-  TextureConfig texture;
-  SpeckleConfig speckle;
-  GapInterpolationConfig gap_interpolation;
-  NoiseReductionConfig noise_reduction;
-};
+/// The shipped preset, as the program runs it.
+inline MachineConfig shipped_config() {
+  return load_configuration({}, {std::string(PARALLAX_SOURCE_DIR) + "/platform/presets"}).machine;
+}
 
 inline std::vector<CensusCode> census_of(const CensusConfig& config, const cv::Mat& image) {
   std::vector<CensusCode> codes;
@@ -39,7 +34,7 @@ inline std::vector<CensusCode> census_of(const CensusConfig& config, const cv::M
   return codes;
 }
 
-inline std::vector<Disparity> run_chain(const ChainConfig& config, const cv::Mat& left,
+inline std::vector<Disparity> run_chain(const MachineConfig& config, const cv::Mat& left,
                                         const cv::Mat& right) {
   const int width = left.cols;
   const int height = left.rows;

@@ -36,6 +36,7 @@ MatchingConfig any_config() {
   config.parallelism = *rc::gen::element(1, 2, 7, 16, 32);
   config.iterations = *rc::gen::inRange(1, 4);
   config.disparity_offset = *rc::gen::element(0, 1, 5, 160);
+  config.cost_weight = *rc::gen::inRange(1, 5);
   config.p1 = *rc::gen::element(0, 1, 8, 254);
   config.p2 = *rc::gen::inRange(config.p1 + 1, 256);
   config.paths = *rc::gen::inRange(1U, kEightPaths + 1);
@@ -72,6 +73,7 @@ TEST(matching, largest_costs_do_not_overflow) {
   for (CensusCode& code : left.data) code = (CensusCode{1} << 63) - 1;
   auto right = random_codes(40, 6, 63, 11);
   MatchingConfig config;
+  config.cost_weight = 4;
   config.p1 = 254;
   config.p2 = 255;
   config.paths = kEightPaths;
@@ -129,6 +131,13 @@ TEST(matching, declares_what_its_circuit_needs) {
     EXPECT_EQ(matching.external_storage_bits(), 0);
     EXPECT_EQ(matching.cost_bits(), 11);  // 4 * 279
   }
+  config.cost_weight = 4;
+  {
+    const Matching matching(config, 640, 480, 63);
+    EXPECT_EQ(matching.storage_bits(), 9 * 129 * (3 * 640 + 1) + 63 * 127);  // 4 * 63 + 255 needs 9 bits
+    EXPECT_EQ(matching.cost_bits(), 11);                                     // 4 * 507
+  }
+  config.cost_weight = 1;
   config.paths = kEightPaths;
   const Matching matching(config, 64, 48, 24);
   // The first pass sums five paths of at most 279: 11 bits.
@@ -150,6 +159,8 @@ TEST(matching, bad_configuration) {
   EXPECT_EQ(complain([](auto& c) { c.disparity_offset = 129; }),
             "matching.disparity_offset + matching.iterations x matching.parallelism = 129 + 4 x 32 = 257: "
             "must be at most 256");
+  EXPECT_EQ(complain([](auto& c) { c.cost_weight = 0; }), "matching.cost_weight = 0: must be within 1..4");
+  EXPECT_EQ(complain([](auto& c) { c.cost_weight = 5; }), "matching.cost_weight = 5: must be within 1..4");
   EXPECT_EQ(complain([](auto& c) { c.p1 = -1; }), "matching.p1 = -1: must be within 0..255");
   EXPECT_EQ(complain([](auto& c) { c.p2 = 256; }), "matching.p2 = 256: must be within 0..255");
   EXPECT_EQ(complain([](auto& c) { c.p1 = 42; }), "matching.p1 = 42: must be below matching.p2 = 42");

@@ -32,6 +32,7 @@ inline Grid<int> naive_costs(const MatchingConfig& config, int code_bits, const 
         } else {
           cost = naive_distance(left.at(x, y), 0);
         }
+        cost *= config.cost_weight;
       }
     }
   }

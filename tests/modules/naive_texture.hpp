@@ -23,7 +23,7 @@ inline DisparityImage naive_texture(const TextureConfig& config, const Image<Gra
       for (int v = y - h; v <= y + h; ++v) {
         for (int u = x - h + 1; u <= x + h; ++u) sum += std::abs(replicated(u, v) - replicated(u - 1, v));
       }
-      const bool plain = 16 * sum < config.threshold * config.window * (config.window - 1);
+      const bool plain = 32 * sum < config.threshold * config.window * (config.window - 1);
       if (plain && input.at(x, y).valid()) output.at(x, y) = {kInvalidDisparity, Cause::kTexture};
     }
   }

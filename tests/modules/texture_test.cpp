@@ -113,14 +113,14 @@ TEST(Texture, RealImage) {
 }
 
 TEST(Texture, ThresholdIsExact) {
-  // A ramp of one grey level per px: the mean contrast is 1, the score 16.
+  // A ramp of one grey level per px: the mean contrast is 1, the score 32.
   GrayImage ramp(40, 9);
   for (int y = 0; y < 9; ++y) {
     for (int x = 0; x < 40; ++x) ramp.at(x, y) = static_cast<Gray>(x);
   }
   const DisparityImage input = random_disparities(40, 9, 0, Content::kFlat);
   std::mt19937 random(3);
-  for (const auto& [threshold, cause] : {std::pair{16, Cause::kMatched}, std::pair{17, Cause::kTexture}}) {
+  for (const auto& [threshold, cause] : {std::pair{32, Cause::kMatched}, std::pair{33, Cause::kTexture}}) {
     TextureConfig config;
     config.threshold = threshold;
     DisparityImage valid = input;

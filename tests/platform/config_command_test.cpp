@@ -56,7 +56,7 @@ TEST_F(ConfigCommand, PrintsAPresetThatReadsBack) {
 TEST_F(ConfigCommand, DocumentationReadsBackWithTagsAndSources) {
   TemporaryFolder folder;
   const Outcome first = run({"config", "--docs", "--set", "matching.p1=11"});
-  EXPECT_NE(first.out.find("# Allowed: an integer from 0 to 255, unit: bits.\n"
+  EXPECT_NE(first.out.find("# Allowed: an integer from 0 to 255, unit: units.\n"
                            "p1 = { value = 11, tag = \"C\", source = \"command line\" }\n"),
             std::string::npos);
   const std::string path = folder.write("again.toml", first.out);
@@ -72,7 +72,7 @@ TEST_F(ConfigCommand, PrintsJson) {
   const auto documented = nlohmann::json::parse(run({"config", "--json", "--docs"}).out);
   const auto& p1 = documented["matching"]["p1"];
   EXPECT_EQ(p1["value"], 8);
-  EXPECT_EQ(p1["unit"], "bits");
+  EXPECT_EQ(p1["unit"], "units");
   EXPECT_EQ(p1["allowed"], "an integer from 0 to 255");
   EXPECT_EQ(p1["tag"], "S");
   EXPECT_FALSE(p1["documentation"].get<std::string>().empty());
