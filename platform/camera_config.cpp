@@ -6,11 +6,11 @@
 namespace parallax {
 
 void describe(Schema& schema, CameraConfig& config) {
-  schema.real(
-      "camera.frame_rate", config.frame_rate, {0.0, 100'000.0}, "frames/s",
-      "Frames that the camera delivers, whether or not the machine keeps up. 0: triggered as soon as a frame "
-      "buffer is free, which shows the highest rate of the machine.",
-      chosen("shows what the machine itself can do"));
+  schema.real("camera.frame_rate", config.frame_rate, {0.0, 100'000.0}, "frames/s",
+              "Frames that the camera delivers at most; it waits while no frame buffer is free. 0: triggered "
+              "as soon as "
+              "one is, which shows the highest rate of the machine.",
+              chosen("shows what the machine itself can do"));
   schema.integer("camera.bytes_per_second", config.bytes_per_second, {1, 1'000'000'000'000}, "B/s",
                  "Rate of the cable of each sensor; the slower of this and the pixel clock sets the pace.",
                  inferred("USB 3.0: 5 Gbit/s less line code and protocol"));
@@ -19,7 +19,7 @@ void describe(Schema& schema, CameraConfig& config) {
   schema.integer("camera.frame_blanking", config.frame_blanking, {0, 1'000'000'000}, "pixel clocks",
                  "Pause of the sensor between two frames.", chosen("not published"));
   schema.integer("camera.frame_buffers", config.frame_buffers, {1, 64}, "stereo frames",
-                 "Frames that the memory holds. A frame that finds none free is dropped and counted.",
+                 "Frames that the memory holds, from the camera until the pipeline has read them.",
                  chosen("not published; one being written, one being read, one to spare"));
 }
 

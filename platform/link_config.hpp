@@ -14,7 +14,7 @@ struct LinkConfig {
   std::int64_t line_rate = 1'000'000'000;  ///< bit/s, 1 to 10^12; S
   std::uint32_t packet_payload_bytes = 1468;  ///< result bytes per packet, 1 to 65536; S
   std::uint32_t packet_wire_bytes = 1538;     ///< bytes per packet on the wire, 1 to 65536; S
-  std::int64_t host_pixel_rate = 30'780'000;  ///< pixels/s that reach the host, 0 = no limit, up to 10^12; F
+  std::int64_t host_pixel_rate = 30'800'000;  ///< pixels/s that reach the host, 0 = no limit, up to 10^12; F
 
   /// Throws UserError when a packet's payload is longer than the packet.
   void validate() const;

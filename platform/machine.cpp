@@ -141,6 +141,7 @@ void Machine::expose_frames() {
     left_sensor_.read_out(images.left);
     right_sensor_.read_out(images.right);
     sc_core::wait(complete);
+    if (frame + 1 == input_.frames) break;  // else the simulation may stop while this thread waits
     const Cycles read_out = left_sensor_.frame_time();
     camera_clock_.wait_until(camera_clock_.cycle_at_or_after(times_.back().exposed) + read_out);
   }

@@ -42,7 +42,7 @@ DmaReader::DmaReader(const sc_core::sc_module_name& name, const DmaEngineConfig&
 
 void DmaReader::start(DmaJob job) {
   jobs_.push_back(std::move(job));
-  started_.notify();
+  started_.notify(sc_core::SC_ZERO_TIME);  // also before the simulation starts
 }
 
 void DmaReader::run() {
@@ -104,7 +104,7 @@ DmaWriter::DmaWriter(const sc_core::sc_module_name& name, const DmaEngineConfig&
 
 void DmaWriter::start(DmaJob job) {
   jobs_.push_back(std::move(job));
-  started_.notify();
+  started_.notify(sc_core::SC_ZERO_TIME);  // also before the simulation starts
 }
 
 void DmaWriter::run() {

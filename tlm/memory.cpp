@@ -6,8 +6,9 @@
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
-#include <new>
 #include <utility>
+
+#include "tlm/error.hpp"
 
 namespace parallax {
 
@@ -15,7 +16,9 @@ Memory::Memory(const sc_core::sc_module_name& name, const MemoryTiming& timing, 
     : sc_module(name), timing_(timing), clock_(clock) {
   // calloc: pages that nobody writes take no memory.
   bytes_.reset(static_cast<std::uint8_t*>(std::calloc(static_cast<std::size_t>(timing.size.count()), 1)));
-  if (bytes_ == nullptr) throw std::bad_alloc();
+  if (bytes_ == nullptr) {
+    throw UserError(fmt::format("this computer cannot hold a memory of {} bytes", timing.size.count()));
+  }
   socket.register_nb_transport_fw(this, &Memory::nb_transport_fw);
   socket.register_b_transport(this, &Memory::b_transport);
   socket.register_transport_dbg(this, &Memory::transport_dbg);

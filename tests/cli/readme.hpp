@@ -2,6 +2,7 @@
 // The README as data: its fenced blocks and its tables.
 #pragma once
 
+#include <cmath>
 #include <fstream>
 #include <regex>
 #include <sstream>
@@ -90,11 +91,36 @@ inline std::vector<Command> commands_of(const FencedBlock& block) {
   return commands;
 }
 
-/// Text with its numbers taken out, for what differs from machine to machine.
-inline std::string without_numbers(const std::string& line) {
+/// Text apart from its numbers, so that a small change of a number is no failure.
+struct Shape {
+  std::string text;  ///< "#" for each number, one space for several
+  std::vector<double> numbers;
+};
+
+inline Shape shape_of(const std::string& line) {
   static const std::regex number("[0-9]+(\\.[0-9]+)?");
   static const std::regex space(" +");
-  return std::regex_replace(std::regex_replace(line, number, "#"), space, " ");
+  Shape shape;
+  for (std::sregex_iterator i(line.begin(), line.end(), number), end; i != end; ++i) {
+    shape.numbers.push_back(std::stod(i->str()));
+  }
+  shape.text = std::regex_replace(std::regex_replace(line, number, "#"), space, " ");
+  return shape;
+}
+
+/// Whether a line of the README shows what was printed: the same text, numbers within 10 %. A line that ends
+/// in " ..." shows the beginning only.
+inline bool shows(const std::string& line, const std::string& printed) {
+  const std::string more = " ...";
+  const bool begins = line.size() > more.size() && line.substr(line.size() - more.size()) == more;
+  const Shape want = shape_of(begins ? line.substr(0, line.size() - more.size()) : line);
+  const Shape have = shape_of(printed);
+  if (begins ? have.text.rfind(want.text, 0) != 0 : have.text != want.text) return false;
+  for (std::size_t i = 0; i < want.numbers.size(); ++i) {
+    const double difference = std::abs(want.numbers[i] - have.numbers[i]);
+    if (difference > 0.1 * want.numbers[i] && difference > 0.051) return false;
+  }
+  return true;
 }
 
 /// The rows of the glossary: "| `name` | unit | meaning |".

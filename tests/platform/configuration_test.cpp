@@ -76,7 +76,7 @@ TEST(Configuration, HasThePublishedMachineByDefault) {
   EXPECT_EQ(machine.clocks.core_hz, 172'100'000);
   EXPECT_EQ(machine.matching.range().count, 128);
   EXPECT_EQ(machine.matching.p2, 42);
-  EXPECT_EQ(machine.link.host_pixel_rate, 30'780'000);
+  EXPECT_EQ(machine.link.host_pixel_rate, 30'800'000);
   EXPECT_EQ(machine.timing.matching.interval, 1U);
 }
 

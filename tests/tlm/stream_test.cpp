@@ -191,6 +191,27 @@ TEST(Stream, PlacesAheadCanBeReserved) {
   EXPECT_TRUE(stream.writer_waits());  // for the read of token 1
 }
 
+TEST(Stream, AReservedPlaceStaysTheSameWhileTokensBeforeItAreWritten) {
+  const ClockDomain clock("clock", Hertz(100'000'000));
+  Dataflow dataflow("dataflow");
+  Stream<int> stream("stream", dataflow, clock, clock, fifo(1));
+  std::int64_t reserved = -1;
+  Thread reserving("reserving", [&] {
+    stream.wait_writable(1);  // token 1, whose place is token 0's
+    reserved = clock.now().count();
+  });
+  Thread writing("writing", [&] {
+    clock.wait_until(Cycles(10));
+    stream.write(1);
+  });
+  Thread reading("reading", [&] {
+    clock.wait_until(Cycles(30));
+    stream.read();
+  });
+  sc_core::sc_start();
+  EXPECT_EQ(reserved, 31);
+}
+
 TEST(Stream, CommitInTheFutureKeepsTheOrder) {
   const ClockDomain clock("clock", Hertz(100'000'000));
   Dataflow dataflow("dataflow");

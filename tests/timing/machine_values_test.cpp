@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+// A slow, narrow or unfair memory changes the machine's times and nothing else.
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <sstream>
+
+#include "tests/timing/in_child.hpp"
+#include "tests/timing/machine_bench.hpp"
+
+namespace parallax::test {
+namespace {
+
+constexpr int kWidth = 64;
+constexpr int kHeight = 32;
+
+SensorImage image(std::uint32_t seed) {
+  std::mt19937 random(seed);
+  auto pixels = std::make_shared<std::vector<Gray>>(static_cast<std::size_t>(kWidth * kHeight));
+  for (std::size_t i = 0; i < pixels->size(); ++i) {
+    // Coarse blocks, so that some of it matches.
+    (*pixels)[i] = static_cast<Gray>((i / 5 * 37 + i / 64 / 3 * 91) % 200 + random() % 20);
+  }
+  return pixels;
+}
+
+// The results of three frames as text, and after a line the time of the last one.
+std::string results(const MachineConfig& config) {
+  return in_child([&] {
+    const EncodedMap map = encode(lens_map(kWidth, kHeight, config.rectification.range));
+    std::ostringstream out;
+    MachineInput input;
+    input.width = kWidth;
+    input.height = kHeight;
+    input.map = &map;
+    input.frames = 3;
+    input.expose = [](std::int64_t frame) {
+      const auto seed = static_cast<std::uint32_t>(frame);
+      return StereoFrame{image(seed), image(seed + 1)};
+    };
+    input.deliver = [&](const FrameResult& result) {
+      for (const Gray pixel : result.left) out << int{pixel} << " ";
+      for (const Disparity& disparity : result.disparities) {
+        out << disparity.value << "/" << static_cast<int>(disparity.cause) << " ";
+      }
+    };
+    const Machine machine("machine", config, input);
+    sc_core::sc_start();
+    if (!machine.finished()) return "stuck:\n" + describe(machine.dataflow().waits());
+    out << "\n" << machine.times().back().at_host;
+    return out.str();
+  });
+}
+
+std::string values(const std::string& text) { return text.substr(0, text.find('\n')); }
+std::string time(const std::string& text) { return text.substr(text.find('\n')); }
+
+MachineConfig small(std::vector<std::string> assignments) {
+  assignments.insert(assignments.begin(), {"rectification.window=9", "matching.iterations=1"});
+  return preset(assignments);
+}
+
+TEST(MachineValues, DoNotDependOnTheMemory) {
+  const std::string usual = results(small({}));
+  ASSERT_GT(values(usual).size(), 3u * kWidth * kHeight * 4) << usual;
+  const std::vector<std::vector<std::string>> others{
+      {"memory.latency_cycles=5000"},
+      {"memory.bytes_per_cycle=1", "memory.efficiency=3"},
+      {"memory.queue_depth=1", "memory.arbitration=fixed_priority"},
+      {"clocks.memory_hz=10000019", "memory.queue_depth=1"},
+      {"dma.left.outstanding=1", "dma.map.fifo_bytes=128", "dma.output.outstanding=1"},
+      {"dma.left.fifo_bytes=128", "dma.right.fifo_bytes=256", "dma.link.fifo_bytes=128"},
+      {"dma.left.burst_bytes=8", "dma.right.burst_bytes=4096", "dma.right.fifo_bytes=4096"},
+      {"camera.frame_buffers=1", "link.output_buffers=1"}};
+  int times_that_changed = 0;
+  for (const std::vector<std::string>& assignments : others) {
+    const std::string other = results(small(assignments));
+    EXPECT_EQ(values(other), values(usual)) << assignments[0];
+    times_that_changed += time(other) != time(usual) ? 1 : 0;
+  }
+  EXPECT_GE(times_that_changed, 5);  // small changes vanish behind the host's pace
+}
+
+}  // namespace
+}  // namespace parallax::test

@@ -1,0 +1,309 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tlm/dma.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "tests/timing/date_log.hpp"
+#include "tests/timing/in_child.hpp"
+#include "tests/tlm/random_memory.hpp"
+#include "tests/tlm/thread.hpp"
+#include "tlm/memory.hpp"
+
+namespace parallax::test {
+namespace {
+
+using Dates = std::vector<std::int64_t>;
+using Values = std::vector<std::uint8_t>;
+
+Values pattern(std::size_t size) {
+  Values all(size);
+  for (std::size_t i = 0; i < size; ++i) all[i] = static_cast<std::uint8_t>(i * 7 + i / 251);
+  return all;
+}
+
+// Takes bursts, each `pause` cycles after the one before, as many as it is told, and their values.
+class BurstSink final : public sc_core::sc_module {
+ public:
+  StreamIn<std::uint8_t> in{"in"};
+  Values values;
+  BurstSink(const sc_core::sc_module_name& name, const ClockDomain& clock, std::uint64_t bursts,
+            std::int64_t pause)
+      : sc_module(name), clock_(clock), bursts_(bursts), pause_(pause) {
+    in.on_row(0,
+              [this](const std::uint8_t* row, std::size_t n) { values.insert(values.end(), row, row + n); });
+    SC_HAS_PROCESS(BurstSink);
+    SC_THREAD(run);
+  }
+
+ private:
+  void run() {
+    for (std::uint64_t i = 0; i < bursts_; ++i) {
+      in->wait_readable();
+      in->release();
+      clock_.wait_until(clock_.now() + Cycles(pause_));
+    }
+  }
+  const ClockDomain& clock_;
+  std::uint64_t bursts_;
+  std::int64_t pause_;
+};
+
+class BurstSource final : public sc_core::sc_module {
+ public:
+  StreamOut<std::uint8_t> out{"out"};
+  BurstSource(const sc_core::sc_module_name& name, Values values, std::uint64_t bursts)
+      : sc_module(name), values_(std::move(values)), bursts_(bursts) {
+    SC_HAS_PROCESS(BurstSource);
+    SC_THREAD(run);
+  }
+
+ private:
+  void run() {
+    if (!values_.empty()) out.send_row(values_.data(), values_.size());
+    for (std::uint64_t i = 0; i < bursts_; ++i) {
+      out[0]->wait_writable();
+      out[0]->commit();
+    }
+  }
+  Values values_;
+  std::uint64_t bursts_;
+};
+
+template <class MemoryModel>
+struct ReaderBench {
+  template <class... Arguments>
+  ReaderBench(const DmaEngineConfig& config, std::uint64_t bursts, std::int64_t pause,
+              const Arguments&... memory_arguments)
+      : memory("memory", memory_arguments...),
+        dataflow("dataflow"),
+        reader("reader", config, clock),
+        stream("stream", dataflow, clock, clock, config.fifo()),
+        log(dates),
+        sink("sink", clock, bursts, pause) {
+    reader.master.socket.bind(memory.socket);
+    reader.out_bursts(stream);
+    sink.in(stream);
+    stream.listen(&log);
+  }
+  ClockDomain clock{"dma", Hertz(100'000'000)};
+  MemoryModel memory;
+  Dataflow dataflow;
+  DmaReader reader;
+  Stream<std::uint8_t> stream;
+  EdgeDates dates;
+  DateLog log;
+  BurstSink sink;
+};
+
+// 100 MHz as the engines; 8 B a cycle, 3 cycles of latency.
+MemoryTiming plain_memory() {
+  MemoryTiming t;
+  t.size = Bytes(1 << 16);
+  t.bytes_per_cycle = Bytes(8);
+  t.latency = Cycles(3);
+  return t;
+}
+
+DmaEngineConfig engine(std::int64_t burst, std::uint32_t outstanding, std::uint32_t fifo_bursts) {
+  return {Bytes(burst), outstanding, fifo_bursts};
+}
+
+const ClockDomain& memory_clock() {
+  static const ClockDomain clock("memory", Hertz(100'000'000));
+  return clock;
+}
+
+TEST(DmaReader, DatesByHand) {
+  // Requests in cycles 0, 1, 2, 3; a burst is two cycles on the bus, then three of latency. The fifth request
+  // waits for the first answer.
+  ReaderBench<Memory> b(engine(16, 4, 8), 6, 0, plain_memory(), memory_clock());
+  b.reader.start({0, {96}, false, nullptr});
+  sc_core::sc_start();
+  EXPECT_EQ(b.dates.written, Dates({5, 7, 9, 11, 13, 15}));
+  EXPECT_EQ(b.dates.read, Dates({6, 8, 10, 12, 14, 16}));
+}
+
+TEST(DmaReader, OneOutstandingRequestWaitsOutEachLatency) {
+  ReaderBench<Memory> b(engine(16, 1, 8), 4, 0, plain_memory(), memory_clock());
+  b.reader.start({0, {64}, false, nullptr});
+  sc_core::sc_start();
+  EXPECT_EQ(b.dates.written, Dates({5, 10, 15, 20}));
+}
+
+TEST(DmaReader, AShortLastBurstTakesLessTime) {
+  ReaderBench<Memory> b(engine(16, 1, 8), 2, 0, plain_memory(), memory_clock());
+  b.reader.start({0, {17}, false, nullptr});
+  sc_core::sc_start();
+  EXPECT_EQ(b.dates.written, Dates({5, 9}));
+  EXPECT_EQ(b.memory.statistics(0).read_bytes, 17u);
+}
+
+TEST(DmaReader, ReservesAPlaceInItsFifoForEachRequest) {
+  // Nobody reads: two places, two requests.
+  ReaderBench<Memory> b(engine(16, 4, 2), 0, 0, plain_memory(), memory_clock());
+  b.reader.start({0, {160}, false, nullptr});
+  sc_core::sc_start();
+  EXPECT_EQ(b.dates.written, Dates({5, 7}));
+  EXPECT_EQ(b.memory.statistics(0).requests, 2u);
+}
+
+TEST(DmaReader, AsksForTheNextBurstWhenAPlaceIsFreed) {
+  ReaderBench<Memory> b(engine(16, 4, 1), 3, 0, plain_memory(), memory_clock());
+  b.reader.start({0, {48}, false, nullptr});
+  sc_core::sc_start();
+  // Read in 6, free and requested in 7, 5 cycles later there.
+  EXPECT_EQ(b.dates.written, Dates({5, 12, 19}));
+}
+
+TEST(DmaReader, BringsTheBytesOfSeveralJobs) {
+  ReaderBench<Memory> b(engine(32, 4, 4), 4 + 2 + 1, 3, plain_memory(), memory_clock());
+  const Values bytes = pattern(1 << 16);
+  std::vector<std::string> done;
+  Thread filling("filling", [&] {
+    ::tlm::tlm_generic_payload payload;
+    Values copy = bytes;
+    payload.set_command(::tlm::TLM_WRITE_COMMAND);
+    payload.set_data_ptr(copy.data());
+    payload.set_data_length(1 << 16);
+    payload.set_streaming_width(1 << 16);
+    b.reader.master.socket->transport_dbg(payload);
+    const auto note = [&](const char* name) { return [&done, name] { done.emplace_back(name); }; };
+    b.reader.start({1000, {40, 1, 59}, true, note("first")});  // 100 bytes: 32 + 32 + 32 + 4
+    b.reader.start({0, {}, true, note("empty")});
+    b.reader.start({7, {33}, true, note("second")});
+    b.reader.start({5000, {32}, true, note("third")});
+  });
+  sc_core::sc_start();
+  Values expected(bytes.begin() + 1000, bytes.begin() + 1100);
+  expected.insert(expected.end(), bytes.begin() + 7, bytes.begin() + 40);
+  expected.insert(expected.end(), bytes.begin() + 5000, bytes.begin() + 5032);
+  EXPECT_EQ(b.sink.values, expected);
+  EXPECT_EQ(done, std::vector<std::string>({"first", "empty", "second", "third"}));
+  EXPECT_EQ(b.dates.read.size(), 7u);
+  EXPECT_EQ(b.reader.master.in_flight(), 0u);
+}
+
+TEST(DmaReader, AnErrorOfTheMemoryIsReported) {
+  ReaderBench<Memory> b(engine(16, 4, 8), 6, 0, plain_memory(), memory_clock());
+  b.reader.start({(1 << 16) - 8, {16}, false, nullptr});
+  try {
+    sc_core::sc_start();
+    FAIL();
+  } catch (const sc_core::sc_report& report) {
+    EXPECT_STREQ(report.get_msg_type(), "/parallax/dma/response");
+    EXPECT_STREQ(report.get_msg(), "reader.master: 16 bytes at 0xfff8: TLM_ADDRESS_ERROR_RESPONSE");
+  }
+}
+
+TEST(DmaReader, AnotherMemoryGivesTheSameValuesAtOtherTimes) {
+  for (std::uint32_t seed = 1; seed <= 40; ++seed) {
+    const std::uint32_t outstanding = 1 + seed % 5;
+    const std::uint32_t fifo_bursts = 1 + seed % 7;
+    const std::string text = in_child([=] {
+      ReaderBench<RandomMemory> b(engine(32, outstanding, fifo_bursts), 60, seed % 3 == 0 ? 4 : 0, 4096u,
+                                  seed, 95);
+      b.memory.bytes = pattern(4096);
+      bool done = false;
+      b.reader.start({100, std::vector<std::uint32_t>(19, 100), true, [&] { done = true; }});
+      sc_core::sc_start();
+      std::string found;
+      if (b.sink.values != Values(b.memory.bytes.begin() + 100, b.memory.bytes.begin() + 2000))
+        found += "values\n";
+      if (!done || b.dates.read.size() != 60) found += "not all bursts arrived\n";
+      if (b.memory.most_in_flight > std::min(outstanding, fifo_bursts)) found += "too many in flight\n";
+      for (std::size_t i = 0; i < b.memory.requests.size(); ++i) {
+        const Cycles cycle = b.clock.cycle_at_or_after(b.memory.requests[i]);
+        if (b.clock.time_of(cycle) != b.memory.requests[i]) found += "a request between two edges\n";
+        if (i > 0 && b.memory.requests[i] <= b.memory.requests[i - 1]) found += "two requests in a cycle\n";
+      }
+      return found;
+    });
+    EXPECT_EQ(text, "") << "seed " << seed;
+  }
+}
+
+template <class MemoryModel>
+struct WriterBench {
+  template <class... Arguments>
+  WriterBench(const DmaEngineConfig& config, const Values& values, std::uint64_t bursts,
+              const Arguments&... memory_arguments)
+      : memory("memory", memory_arguments...),
+        dataflow("dataflow"),
+        writer("writer", config, clock),
+        stream("stream", dataflow, clock, clock, config.fifo()),
+        log(dates),
+        source("source", values, bursts) {
+    writer.master.socket.bind(memory.socket);
+    writer.in_bursts(stream);
+    source.out(stream);
+    stream.listen(&log);
+  }
+  ClockDomain clock{"dma", Hertz(100'000'000)};
+  MemoryModel memory;
+  Dataflow dataflow;
+  DmaWriter writer;
+  Stream<std::uint8_t> stream;
+  EdgeDates dates;
+  DateLog log;
+  BurstSource source;
+};
+
+TEST(DmaWriter, ABurstLeavesTheFifoWhenTheMemoryTakesIt) {
+  MemoryTiming t = plain_memory();
+  t.queue_depth = 1;
+  WriterBench<Memory> b(engine(32, 8, 8), {}, 4, t, memory_clock());
+  Cycles done;
+  b.writer.start({0, {128}, false, [&] { done = b.clock.now(); }});
+  sc_core::sc_start();
+  // Readable in 1, 2, 3, 4; the bus takes four cycles a burst: service in 1, 5, 9, 13. The third request is
+  // taken when the second is served.
+  EXPECT_EQ(b.dates.read, Dates({1, 2, 5, 9}));
+  EXPECT_EQ(done.count(), 13 + 4 + 3);
+  EXPECT_EQ(b.memory.statistics(0).written_bytes, 128u);
+}
+
+TEST(DmaWriter, PutsTheBytesOfSeveralJobsInPlace) {
+  for (std::uint32_t seed = 1; seed <= 20; ++seed) {
+    const std::string text = in_child([seed] {
+      const Values values = pattern(133 + 64);
+      WriterBench<RandomMemory> b(engine(32, 1 + seed % 4, 4), values, 5 + 2, 4096u, seed, 70);
+      int done = 0;
+      b.writer.start({500, {100, 33}, true, [&] { ++done; }});
+      b.writer.start({9, {}, true, [&] { ++done; }});
+      b.writer.start({2000, {64}, true, [&] { ++done; }});
+      sc_core::sc_start();
+      Values expected(4096);
+      std::copy(values.begin(), values.begin() + 133, expected.begin() + 500);
+      std::copy(values.begin() + 133, values.end(), expected.begin() + 2000);
+      std::string found;
+      if (b.memory.bytes != expected) found += "values\n";
+      if (done != 3) found += "not all jobs ended\n";
+      if (b.memory.most_in_flight > 1 + seed % 4) found += "too many in flight\n";
+      return found;
+    });
+    EXPECT_EQ(text, "") << "seed " << seed;
+  }
+}
+
+TEST(DmaWriter, ReportsABurstWithoutItsBytes) {
+  WriterBench<Memory> b(engine(32, 8, 8), Values(31), 1, plain_memory(), memory_clock());
+  b.writer.start({0, {32}, true, nullptr});
+  try {
+    sc_core::sc_start();
+    FAIL();
+  } catch (const sc_core::sc_report& report) {
+    EXPECT_STREQ(report.get_msg_type(), "/parallax/dma/values");
+  }
+}
+
+TEST(BurstCount, RoundsUp) {
+  EXPECT_EQ(burst_count(0, Bytes(128)), 0u);
+  EXPECT_EQ(burst_count(1, Bytes(128)), 1u);
+  EXPECT_EQ(burst_count(128, Bytes(128)), 1u);
+  EXPECT_EQ(burst_count(129, Bytes(128)), 2u);
+}
+
+}  // namespace
+}  // namespace parallax::test
