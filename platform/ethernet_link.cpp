@@ -37,40 +37,46 @@ void EthernetLink::start(LinkJob job) {
 void EthernetLink::run() {
   const std::uint64_t overhead = config_.packet_wire_bytes - config_.packet_payload_bytes;
   const auto burst = static_cast<std::uint64_t>(burst_.count());
-  Cycles wire_free(0);
-  Cycles host_free(0);
   for (;;) {
     while (jobs_.empty()) sc_core::wait(started_);
-    const LinkJob job = std::move(jobs_.front());
+    job_ = std::move(jobs_.front());
     jobs_.pop_front();
     std::uint64_t received = 0;
-    for (std::uint64_t sent = 0; sent < job.bytes;) {
-      const std::uint64_t payload = std::min<std::uint64_t>(config_.packet_payload_bytes, job.bytes - sent);
+    for (std::uint64_t sent = 0; sent < job_.bytes;) {
+      const std::uint64_t payload = std::min<std::uint64_t>(config_.packet_payload_bytes, job_.bytes - sent);
       while (received < sent + payload) {
         in_bursts->wait_readable();
         in_bursts->release();
-        received += std::min(burst, job.bytes - received);
+        received += std::min(burst, job_.bytes - received);
       }
-      clock_.wait_until(std::max(wire_free, host_free));
+      clock_.wait_until(std::max(wire_free_, host_free_));
       const Cycles begin = clock_.now();
       const Cycles wire = wire_.take(static_cast<std::int64_t>(payload + overhead));
       const Cycles host = host_.take(static_cast<std::int64_t>(payload));
-      wire_free = begin + wire;
-      host_free = std::max(host_free, begin) + host;
+      wire_free_ = begin + wire;
+      host_free_ = std::max(host_free_, begin) + host;
       wire_busy_ += wire;
       host_busy_ += host;
       ++packets_;
       sent += payload;
     }
-    clock_.wait_until(wire_free);
-    std::vector<std::uint8_t> bytes;
-    if (job.values) {
-      const auto end = bytes_.begin() + static_cast<std::ptrdiff_t>(job.bytes);
-      bytes.assign(bytes_.begin(), end);
-      bytes_.erase(bytes_.begin(), end);
-    }
-    job.sent(bytes);
+    clock_.wait_until(wire_free_);
+    finish_frame();
   }
 }
+
+void EthernetLink::finish_frame() {
+  std::vector<std::uint8_t> bytes;
+  if (job_.values) {
+    const auto end = bytes_.begin() + static_cast<std::ptrdiff_t>(job_.bytes);
+    bytes.assign(bytes_.begin(), end);
+    bytes_.erase(bytes_.begin(), end);
+  }
+  job_.sent(bytes);
+}
+
+Cycles EthernetLink::wire_busy() const { return wire_busy_ - std::max(Cycles(0), wire_free_ - clock_.now()); }
+
+Cycles EthernetLink::host_busy() const { return host_busy_ - std::max(Cycles(0), host_free_ - clock_.now()); }
 
 }  // namespace parallax

@@ -34,11 +34,12 @@ class EthernetLink final : public sc_core::sc_module {
   void start(LinkJob job);
 
   std::uint64_t packets() const { return packets_; }
-  Cycles wire_busy() const { return wire_busy_; }  ///< cycles that packets were on the wire
-  Cycles host_busy() const { return host_busy_; }  ///< cycles that the host was taking pixels
+  Cycles wire_busy() const;  ///< cycles that packets were on the wire, until now
+  Cycles host_busy() const;  ///< cycles that the host was taking pixels, until now
 
  private:
   void run();
+  void finish_frame();
 
   const LinkConfig config_;
   const Bytes burst_;
@@ -49,6 +50,9 @@ class EthernetLink final : public sc_core::sc_module {
   sc_core::sc_event started_;
   std::deque<std::uint8_t> bytes_;
   std::uint64_t packets_ = 0;
+  LinkJob job_;  // under way; a member, because a thread that never ends frees nothing
+  Cycles wire_free_{0};
+  Cycles host_free_{0};
   Cycles wire_busy_;
   Cycles host_busy_;
 };

@@ -26,6 +26,19 @@ struct FrameTimes {
   sc_core::sc_time at_host;  ///< last bit on the wire; results_in_memory when the link is off
 };
 
+/// How far each part's work had come at one date, from the beginning of the run.
+struct Activity {
+  struct Port {
+    std::uint64_t bytes = 0;
+    Cycles bus;                 ///< memory cycles in which the bus was taken
+    sc_core::sc_time occupied;  ///< summed over the DMA engine's requests under way
+  };
+  sc_core::sc_time time;
+  std::vector<Port> ports;  ///< in the order of the memory's ports
+  Cycles wire;              ///< link cycles with a packet on the wire
+  Cycles host;              ///< link cycles in which the host was taking pixels
+};
+
 /// What comes out for one frame. Images are row-major and of the machine's size; empty for a timing-only
 /// frame.
 struct FrameResult {

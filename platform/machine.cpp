@@ -93,10 +93,7 @@ Machine::Machine(const sc_core::sc_module_name& name, const MachineConfig& confi
   dma_link_.out_bursts(link_bursts_);
   link_.in_bursts(link_bursts_);
 
-  for (BusMaster* master : {&dma_camera_left_.master, &dma_camera_right_.master, &dma_left_.master,
-                            &dma_right_.master, &dma_map_.master, &dma_output_.master, &dma_link_.master}) {
-    master->socket.bind(memory_.socket);
-  }
+  for (BusMaster* master : masters()) master->socket.bind(memory_.socket);
   pipeline_.output().tap([this](const Gray* left, const Disparity* row) { take_row(left, row); });
 
   SC_HAS_PROCESS(Machine);
@@ -104,8 +101,26 @@ Machine::Machine(const sc_core::sc_module_name& name, const MachineConfig& confi
 }
 
 // The map is there before the first frame; then a frame is exposed whenever a buffer is free and its time has
-// come.
+// come. Nothing that has to be freed lives on this thread's stack while it waits: it never ends.
 void Machine::expose_frames() {
+  place_map();
+  for (std::int64_t frame = 0;; ++frame) {
+    while (input_buffers_used_ == static_cast<std::int64_t>(memory_map_.frames.size())) {
+      sc_core::wait(input_buffer_free_);
+    }
+    if (config_.camera.frame_rate > 0) {
+      const double due = static_cast<double>(frame) / config_.camera.frame_rate;
+      camera_clock_.wait_until(
+          Cycles(static_cast<std::int64_t>(due * static_cast<double>(config_.clocks.camera_hz))));
+    }
+    expose(frame);
+    sc_core::wait(frame_complete_);
+    const Cycles read_out = left_sensor_.frame_time();
+    camera_clock_.wait_until(camera_clock_.cycle_at_or_after(times_.back().exposed) + read_out);
+  }
+}
+
+void Machine::place_map() {
   ::tlm::tlm_generic_payload map;
   std::vector<std::uint8_t> map_bytes = input_.map->bytes;
   map.set_command(::tlm::TLM_WRITE_COMMAND);
@@ -114,37 +129,26 @@ void Machine::expose_frames() {
   map.set_data_length(static_cast<unsigned>(map_bytes.size()));
   map.set_streaming_width(map.get_data_length());
   dma_map_.master.socket->transport_dbg(map);
+}
 
+void Machine::expose(std::int64_t frame) {
   const std::vector<std::uint32_t> rows = equal_rows(input_.height, static_cast<std::size_t>(input_.width));
-  const auto buffers = static_cast<std::int64_t>(config_.camera.frame_buffers);
-  for (std::int64_t frame = 0; frame < input_.frames; ++frame) {
-    while (input_buffers_used_ == buffers) sc_core::wait(input_buffer_free_);
-    ++input_buffers_used_;
-    if (config_.camera.frame_rate > 0) {
-      const auto due = static_cast<double>(frame) / config_.camera.frame_rate;
-      camera_clock_.wait_until(
-          Cycles(static_cast<std::int64_t>(due * static_cast<double>(config_.clocks.camera_hz))));
-    }
-    const StereoFrame images = input_.expose(frame);
-    const bool values = images.left != nullptr;
-    values_.push_back(values);
-    times_.emplace_back();
-    times_.back().exposed = sc_core::sc_time_stamp();
-    sc_core::sc_event complete;
-    const std::function<void()> done = when_both([this, frame, &complete] {
-      complete.notify();
-      frame_in_memory(frame);
-    });
-    const MemoryMap::FrameBuffer& buffer = memory_map_.frames[static_cast<std::size_t>(frame % buffers)];
-    dma_camera_left_.start({buffer.left, rows, values, done});
-    dma_camera_right_.start({buffer.right, rows, values, done});
-    left_sensor_.read_out(images.left);
-    right_sensor_.read_out(images.right);
-    sc_core::wait(complete);
-    if (frame + 1 == input_.frames) break;  // else the simulation may stop while this thread waits
-    const Cycles read_out = left_sensor_.frame_time();
-    camera_clock_.wait_until(camera_clock_.cycle_at_or_after(times_.back().exposed) + read_out);
-  }
+  ++input_buffers_used_;
+  const StereoFrame images = frame < input_.frames ? input_.expose(frame) : StereoFrame{};
+  const bool values = images.left != nullptr;
+  values_.push_back(values);
+  times_.emplace_back();
+  times_.back().exposed = sc_core::sc_time_stamp();
+  const std::function<void()> done = when_both([this, frame] {
+    frame_complete_.notify();
+    frame_in_memory(frame);
+  });
+  const auto buffers = static_cast<std::int64_t>(memory_map_.frames.size());
+  const MemoryMap::FrameBuffer& buffer = memory_map_.frames[static_cast<std::size_t>(frame % buffers)];
+  dma_camera_left_.start({buffer.left, rows, values, done});
+  dma_camera_right_.start({buffer.right, rows, values, done});
+  left_sensor_.read_out(images.left);
+  right_sensor_.read_out(images.right);
 }
 
 void Machine::frame_in_memory(std::int64_t frame) {
@@ -216,6 +220,7 @@ void Machine::take_row(const Gray*, const Disparity* row) {
 
 void Machine::deliver(std::int64_t frame, const std::vector<std::uint8_t>& bytes) {
   times_[static_cast<std::size_t>(frame)].at_host = sc_core::sc_time_stamp();
+  activities_.push_back(activity());
   --output_buffers_used_;
   start_outputs();
   FrameResult result;
@@ -242,6 +247,34 @@ void Machine::deliver(std::int64_t frame, const std::vector<std::uint8_t>& bytes
   }
   if (input_.deliver) input_.deliver(result);
   if (++delivered_ == input_.frames) sc_core::sc_stop();
+}
+
+std::vector<BusMaster*> Machine::masters() {
+  return {&dma_camera_left_.master, &dma_camera_right_.master, &dma_left_.master, &dma_right_.master,
+          &dma_map_.master,         &dma_output_.master,       &dma_link_.master};
+}
+
+std::vector<std::uint32_t> Machine::dma_places() const {
+  // A reading engine has no more requests under way than its FIFO can take answers.
+  const auto reading = [](const DmaPortConfig& port) {
+    return std::min(port.outstanding, engine_config(port).fifo_bursts);
+  };
+  const DmaConfig& dma = config_.dma;
+  return {dma.camera.outstanding, dma.camera.outstanding, reading(dma.left), reading(dma.right),
+          reading(dma.map),       dma.output.outstanding, reading(dma.link)};
+}
+
+Activity Machine::activity() {
+  Activity activity;
+  activity.time = sc_core::sc_time_stamp();
+  const std::vector<BusMaster*> engines = masters();
+  for (std::size_t port = 0; port < memory_.ports(); ++port) {
+    activity.ports.push_back(
+        {memory_.statistics(port).bytes(), memory_.bus_taken(port), engines[port]->occupied()});
+  }
+  activity.wire = link_.wire_busy();
+  activity.host = link_.host_busy();
+  return activity;
 }
 
 }  // namespace parallax

@@ -24,7 +24,8 @@ struct MachineInput {
   int height = 0;  ///< px
   const EncodedMap* map = nullptr;
   std::int64_t frames = 1;
-  /// Called once a frame, in order, when it is exposed.
+  /// Called once a frame, in order, when it is exposed. The cameras go on after the last one, without images,
+  /// until the host has all frames, so that every frame meets the traffic of its successors.
   std::function<StereoFrame(std::int64_t frame)> expose;
   /// Called once a frame, in order, when the host has it.
   std::function<void(const FrameResult& result)> deliver;
@@ -44,7 +45,12 @@ class Machine final : public sc_core::sc_module {
 
   const MachineConfig& config() const { return config_; }
   const MachineInput& input() const { return input_; }
+  /// Of all frames that were exposed, more than `input.frames`; those after it may be unfinished.
   const std::vector<FrameTimes>& times() const { return times_; }
+  /// What had happened when the host had a frame, an entry for each frame delivered.
+  const std::vector<Activity>& activities() const { return activities_; }
+  /// Requests that the DMA engine of each memory port can have under way.
+  std::vector<std::uint32_t> dma_places() const;
   const Pipeline& pipeline() const { return pipeline_; }
   const Dataflow& dataflow() const { return dataflow_; }
   const Memory& memory() const { return memory_; }
@@ -64,6 +70,10 @@ class Machine final : public sc_core::sc_module {
   void results_in_memory(std::int64_t frame);
   void take_row(const Gray* left, const Disparity* row);
   void deliver(std::int64_t frame, const std::vector<std::uint8_t>& bytes);
+  void expose(std::int64_t frame);
+  void place_map();
+  std::vector<BusMaster*> masters();  // in the order of the memory's ports
+  Activity activity();
 
   const MachineConfig config_;
   const MachineInput input_;
@@ -90,6 +100,8 @@ class Machine final : public sc_core::sc_module {
   Stream<std::uint8_t> link_bursts_;
 
   std::vector<FrameTimes> times_;
+  std::vector<Activity> activities_;
+  sc_core::sc_event frame_complete_;     // both images are in memory
   std::vector<bool> values_;             // whether a frame carries images
   std::int64_t input_buffers_used_ = 0;  // frames from exposure until both images are read
   sc_core::sc_event input_buffer_free_;

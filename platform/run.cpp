@@ -17,6 +17,7 @@
 #include "platform/frame_source.hpp"
 #include "platform/image_padding.hpp"
 #include "platform/interruption.hpp"
+#include "platform/limits.hpp"
 #include "platform/machine.hpp"
 #include "platform/peak_memory.hpp"
 #include "platform/preset.hpp"
@@ -29,6 +30,8 @@ namespace parallax {
 namespace {
 
 constexpr std::int64_t kMostFrames = 1'000'000'000;
+// After the warm-up: two frame periods lie between three arrivals at the host.
+constexpr std::int64_t kMeasuredFrames = 3;
 constexpr int kMachineStuck = 1;
 constexpr int kSignalled = 128;  // as shells report a program that a signal ended
 
@@ -45,6 +48,10 @@ std::unique_ptr<FrameSource> scene(const RunOptions& options, const MachineConfi
   if (config.image.width != 0) scene_config.width = static_cast<int>(config.image.width);
   if (config.image.height != 0) scene_config.height = static_cast<int>(config.image.height);
   if (!options.size.empty()) {
+    if (config.image.width != 0 || config.image.height != 0) {
+      throw UserError(
+          "--size and image.width or image.height exclude each other: both say how large the scene is");
+    }
     char rest = 0;
     if (std::sscanf(options.size.c_str(), "%5dx%5d%c", &scene_config.width, &scene_config.height, &rest) !=
         2) {
@@ -71,7 +78,7 @@ std::unique_ptr<FrameSource> open_source(const RunOptions& options, const Machin
     throw UserError(fmt::format("{} is {}, allowed is 1 to {}", option, value, kMostFrames));
   };
   count("--frames", options.frames.value_or(1));
-  count("--timing-frames", options.timing_frames);
+  count("--timing-frames", options.timing_frames.value_or(1));
   if (!options.mask.empty() && options.ground_truth.empty()) throw UserError("--mask needs --ground-truth");
   if (options.fit && options.calibration.empty()) throw UserError("--fit needs --calibration");
   if (!options.map.empty() && !options.calibration.empty()) {
@@ -114,7 +121,9 @@ class Run {
         padded_(padded_size(size_, granularity_)),
         rectification_(choose_rectification(options, configuration_.machine.rectification.range, *source_,
                                             padded_, notice_)),
-        total_frames_(std::max(source_->frames(), options.timing_frames)) {
+        total_frames_(std::max(
+            source_->frames(),
+            options.timing_frames.value_or(warm_up_frames(configuration_.machine) + kMeasuredFrames))) {
     if (const std::string line = padding_notice(size_, granularity_); !line.empty()) note(line);
     const DisparityRange range = configuration_.machine.matching.range();
     writing_.colors = {range.offset, range.last()};

@@ -86,9 +86,10 @@ void add_run_command(CLI::App& app, CommandContext& context) {
       ->group("Output");
   command.add_flag("!--no-point-cloud", options->point_cloud, "Do not write points.ply")->group("Output");
   command
-      .add_option("--timing-frames", options->timing_frames,
-                  "Least number of frames to simulate; beyond the input, frames are timed without images")
-      ->capture_default_str()
+      .add_option(
+          "--timing-frames", options->timing_frames,
+          "Least number of frames to simulate; beyond the input, frames are timed without images. If not "
+          "given: so many that all buffers have been full, and three more")
       ->group("Output");
   add_json_option(command, options->json);
   add_configuration_options(command, options->configuration);

@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
 
+#include "platform/limits.hpp"
 #include "platform/version.hpp"
 
 namespace parallax {
@@ -13,71 +13,7 @@ namespace {
 
 double seconds(const sc_core::sc_time& time) { return time.to_seconds(); }
 
-// The frames over which the steady state is measured: all but the first, which fills the machine.
-struct Window {
-  std::size_t first = 0;
-  std::size_t last = 0;
-  double period = 0;  ///< s; 0 when there is one frame only
-  std::string text;
-};
-
-Window steady_window(const std::vector<FrameTimes>& times) {
-  Window window;
-  window.last = times.size() - 1;
-  if (times.size() >= 3) window.first = 1;
-  if (window.last > window.first) {
-    window.period = seconds(times[window.last].at_host - times[window.first].at_host) /
-                    static_cast<double>(window.last - window.first);
-  }
-  window.text =
-      window.period == 0 ? "frame 1" : fmt::format("frames {} to {}", window.first + 1, window.last + 1);
-  return window;
-}
-
-// How much of a frame's period each part is at work, the parts being everything that could be the limit.
-struct Load {
-  std::string part;
-  double busy = 0;  ///< s a frame
-  std::string remedy;
-};
-
-std::vector<Load> loads(const Machine& machine) {
-  const auto frames = static_cast<double>(machine.input().frames);
-  std::vector<Load> all;
-  for (const StageInfo& info : machine.pipeline().stages()) {
-    const Cycles cycles(info.stage->schedule().cycles());
-    all.push_back({info.stage->basename(), info.stage->clock().seconds(cycles), "clocks.core_hz"});
-  }
-  Cycles bus;
-  for (std::size_t port = 0; port < machine.memory().ports(); ++port)
-    bus += machine.memory().statistics(port).bus;
-  all.push_back({"memory", machine.memory().clock().seconds(bus) / frames, "memory.bytes_per_cycle"});
-  if (machine.config().link.enabled) {
-    all.push_back(
-        {"link", machine.link_clock().seconds(machine.link().wire_busy()) / frames, "link.line_rate"});
-    all.push_back(
-        {"host", machine.link_clock().seconds(machine.link().host_busy()) / frames, "link.host_pixel_rate"});
-  }
-  all.push_back(
-      {"camera", machine.camera_clock().seconds(machine.sensor().frame_time()), "clocks.camera_hz"});
-  if (machine.config().camera.frame_rate > 0) {
-    all.push_back({"camera_frame_rate", 1.0 / machine.config().camera.frame_rate, "camera.frame_rate"});
-  }
-  return all;
-}
-
-// Stages that a slower one upstream feeds run at its pace; those within this share of the largest load count
-// as one.
-constexpr double kSamePace = 0.99;
-
-// The part that limits: of all at the pace of the busiest one, the first that the data meets.
-Load most_upstream_limit(const std::vector<Load>& all) {
-  double largest = 0;
-  for (const Load& load : all) largest = std::max(largest, load.busy);
-  return *std::find_if(all.begin(), all.end(), [&](const Load& l) { return l.busy >= kSamePace * largest; });
-}
-
-void add_performance(MetricGroup& root, const Machine& machine, const Window& window) {
+void add_performance(MetricGroup& root, const Machine& machine, const SteadyWindow& window) {
   const double pixels = static_cast<double>(machine.input().width) * machine.input().height;
   const double fps = window.period > 0 ? 1.0 / window.period : 0;
   const int range = machine.config().matching.range().count;
@@ -90,7 +26,7 @@ void add_performance(MetricGroup& root, const Machine& machine, const Window& wi
              "Disparity evaluations: frame rate times pixels times disparity range.", window.text});
 }
 
-void add_latency(MetricGroup& root, const Machine& machine, const Window& window) {
+void add_latency(MetricGroup& root, const Machine& machine, const SteadyWindow& window) {
   const std::vector<FrameTimes>& times = machine.times();
   const auto add = [&](MetricGroup& group, const char* name, const char* description, auto from, auto to) {
     const auto of = [&](const FrameTimes& t) { return seconds(t.*to - t.*from) * 1e3; };
@@ -114,46 +50,53 @@ void add_latency(MetricGroup& root, const Machine& machine, const Window& window
       &FrameTimes::exposed, &FrameTimes::at_host);
 }
 
-void add_limit(MetricGroup& root, const Machine& machine, const Window& window) {
-  std::vector<Load> all = loads(machine);
-  const Load limit = most_upstream_limit(all);
-  std::vector<Load> others;
-  std::copy_if(all.begin(), all.end(), std::back_inserter(others),
-               [&](const Load& l) { return l.busy < kSamePace * limit.busy; });
-  std::stable_sort(all.begin(), all.end(), [](const Load& a, const Load& b) { return a.busy > b.busy; });
+void add_limit(MetricGroup& root, const Machine& machine, const SteadyWindow& window) {
+  if (window.frames() == 0) return;
+  const std::vector<PartLoad> all = part_loads(machine, window);
+  const LimitVerdict verdict = find_limit(all);
   MetricGroup& group = root.group("limit");
-  group.add({"part", limit.part, "", "The part that is at work for the largest share of a frame's period.",
-             window.text});
-  group.add({"key", limit.remedy, "", "The configuration key that moves this limit.", window.text});
-  const double period = window.period > 0 ? window.period : limit.busy;
-  group.add({"utilisation", 100.0 * limit.busy / period, "%",
-             "Share of the frame period in which it is at work.", window.text});
-  const Load next = others.empty() ? limit : most_upstream_limit(others);
-  group.add({"next_part", next.part, "", "The part that would limit next.", window.text});
+  group.add(
+      {"part", verdict.limited ? verdict.busiest.part : "none", "",
+       "The part that is at work all the time; of several, the first that the data meets. none: no part is.",
+       window.text});
+  group.add({"key", verdict.limited ? verdict.busiest.key : verdict.otherwise, "",
+             "The configuration keys that move this limit.", window.text});
+  group.add({"utilisation", 100.0 * verdict.busiest.share, "%",
+             "Share of the time in which the busiest part is at work.", window.text});
+  const PartLoad& next = verdict.limited ? verdict.next : verdict.busiest;
+  group.add({"next_part", next.part, "", "The part that would limit if this one did not.", window.text});
   group.add({"next_frame_rate", 1.0 / next.busy, "frames/s", "The rate at which it would.", window.text});
   MetricGroup& parts = group.group("utilisation_by_part");
-  for (const Load& load : all) {
-    parts.add({load.part, 100.0 * load.busy / period, "%",
-               "Share of the frame period in which the part is at work.", window.text});
+  for (const PartLoad& load : all) {
+    parts.add(
+        {load.part, 100.0 * load.share, "%", "Share of the time in which the part is at work.", window.text});
   }
 }
 
-void add_memory(MetricGroup& root, const Machine& machine, const Window& window) {
+void add_memory(MetricGroup& root, const Machine& machine, const SteadyWindow& window) {
   MetricGroup& memory = root.group("memory");
   const Memory& model = machine.memory();
-  const auto frames = static_cast<double>(machine.input().frames);
-  const std::string all = fmt::format("all {} frames", machine.input().frames);
-  double total = 0;
+  const std::string all = "the whole run";
+  const Activity& first = machine.activities()[window.first];
+  const Activity& last = machine.activities()[window.last];
+  const double elapsed = seconds(last.time - first.time);
+  const auto cycles = static_cast<double>(model.clock().cycle_at_or_after(last.time).count() -
+                                          model.clock().cycle_at_or_after(first.time).count());
+  double total = 0, total_share = 0;
   for (std::size_t id = 0; id < model.ports(); ++id) {
     const MemoryPortStatistics& port = model.statistics(id);
     MetricGroup& group = memory.group(Machine::port_names()[id]);
-    const double bytes = static_cast<double>(port.bytes()) / frames;
-    const double rate = window.period > 0 ? bytes / window.period : 0;
+    const auto bytes = static_cast<double>(last.ports[id].bytes - first.ports[id].bytes);
+    const auto bus = static_cast<double>((last.ports[id].bus - first.ports[id].bus).count());
+    const double rate = window.frames() == 0 ? 0 : bytes / elapsed;
+    const double share = window.frames() == 0 ? 0 : bus / cycles;
     total += rate;
-    group.add({"bytes_per_frame", bytes, "B", "Bytes through the port, a frame.", all});
-    group.add({"bandwidth", rate / 1e6, "MB/s", "Bytes a frame times frame rate.", window.text});
-    group.add({"share", 100.0 * rate / model.usable_bandwidth(), "%", "Of the memory's usable bandwidth.",
-               window.text});
+    total_share += share;
+    group.add({"bytes_per_frame", window.frames() == 0 ? 0 : bytes / static_cast<double>(window.frames()),
+               "B", "Bytes through the port, a frame.", window.text});
+    group.add({"bandwidth", rate / 1e6, "MB/s", "Bytes through the port by time.", window.text});
+    group.add(
+        {"share", 100.0 * share, "%", "Time in which the memory's bus was taken for the port.", window.text});
     const double requests = std::max(1.0, static_cast<double>(port.requests));
     group.add({"latency_mean", seconds(port.latency_sum) / requests * 1e9, "ns",
                "From request to answer of a burst.", all});
@@ -165,12 +108,19 @@ void add_memory(MetricGroup& root, const Machine& machine, const Window& window)
                            "Compressed size of the rectification map by pixels of both images.", ""});
   memory.add({"bandwidth", total / 1e6, "MB/s", "Of all ports together.", window.text});
   memory.add({"usable_bandwidth", model.usable_bandwidth() / 1e6, "MB/s", "Peak times efficiency.", ""});
-  memory.add(
-      {"share", 100.0 * total / model.usable_bandwidth(), "%", "Of the usable bandwidth.", window.text});
+  memory.add({"share", 100.0 * total_share, "%", "Time in which the memory's bus was taken.", window.text});
 }
 
-void add_pipeline(MetricGroup& root, const Machine& machine, const Window& window) {
-  const std::string all = fmt::format("all {} frames", machine.input().frames);
+double share_of(const std::vector<PartLoad>& loads, const std::string& part) {
+  const auto found =
+      std::find_if(loads.begin(), loads.end(), [&](const PartLoad& l) { return l.part == part; });
+  return found == loads.end() ? 0 : found->share;
+}
+
+void add_pipeline(MetricGroup& root, const Machine& machine, const SteadyWindow& window) {
+  const std::string all = "the whole run";
+  const std::vector<PartLoad> loads =
+      window.frames() == 0 ? std::vector<PartLoad>{} : part_loads(machine, window);
   MetricGroup& stages = root.group("stages");
   for (const StageInfo& info : machine.pipeline().stages()) {
     const StageStatistics& s = info.stage->statistics();
@@ -178,9 +128,8 @@ void add_pipeline(MetricGroup& root, const Machine& machine, const Window& windo
     const double cycles = static_cast<double>(info.stage->schedule().cycles());
     group.add({"cycles_per_frame", cycles, "cycles",
                "Cycles of a frame without any wait, by the declared intervals.", ""});
-    const double period = window.period * static_cast<double>(info.stage->clock().frequency().count());
-    group.add({"utilisation", period > 0 ? 100.0 * cycles / period : 0.0, "%", "Of the frame period.",
-               window.text});
+    group.add(
+        {"utilisation", 100.0 * share_of(loads, info.stage->basename()), "%", "Of the time.", window.text});
     group.add({"busy", s.busy.count(), "cycles", "At work with a token on some port.", all});
     group.add({"idle", s.idle.count(), "cycles", "Declared row and frame overhead.", all});
     group.add({"starved", s.starved.count(), "cycles", "Held back by an empty input.", all});
@@ -205,7 +154,7 @@ void add_pipeline(MetricGroup& root, const Machine& machine, const Window& windo
 }  // namespace
 
 MetricGroup measure(const Machine& machine, const RunTotals& totals, int image_width, int image_height) {
-  const Window window = steady_window(machine.times());
+  const SteadyWindow window = steady_window(machine);
   const std::string with_images = fmt::format("{} frames with images", totals.frames);
   MetricGroup root;
 
@@ -217,9 +166,9 @@ MetricGroup measure(const Machine& machine, const RunTotals& totals, int image_w
     run.add({"seed", fmt::format("{}", *totals.scene_seed), "", "Of the built-in scene.", ""});
   }
   run.add({"wall_time", totals.wall_seconds, "s", "Time that the run took on this computer.", ""});
-  run.add(
-      {"simulated_time", seconds(machine.times().back().at_host), "s", "Time of the modelled machine.", ""});
-  run.add({"speed", seconds(machine.times().back().at_host) / std::max(totals.wall_seconds, 1e-9), "s/s",
+  run.add({"simulated_time", seconds(machine.activities().back().time), "s", "Time of the modelled machine.",
+           ""});
+  run.add({"speed", seconds(machine.activities().back().time) / std::max(totals.wall_seconds, 1e-9), "s/s",
            "Simulated time per wall-clock time.", ""});
   run.add({"peak_memory", totals.peak_megabytes, "MB", "Largest resident size of the program.", ""});
 

@@ -21,9 +21,9 @@ struct RunOptions {
   std::string input;
   std::string size;  ///< WxH of the built-in scene
   SceneConfig scene;
-  bool rectified = false;              ///< the built-in scene without distortion
-  std::optional<std::int64_t> frames;  ///< none: all of the input; one of the scene
-  std::int64_t timing_frames = 4;
+  bool rectified = false;                     ///< the built-in scene without distortion
+  std::optional<std::int64_t> frames;         ///< none: all of the input; one of the scene
+  std::optional<std::int64_t> timing_frames;  ///< none: the warm-up and three more
   std::string ground_truth;
   std::string mask;
   // Rectification.

@@ -30,12 +30,28 @@ std::string memory_lines(const MetricGroup& m) {
   return text;
 }
 
+std::string limit_line(const MetricGroup& m) {
+  if (number(m, "performance/frame_rate") == 0) return "";  // one frame has no steady state
+  if (word(m, "limit/part") == "none") {
+    return fmt::format(
+        "limit               no part is at work all the time; the busiest, {}, is at {:.1f} %; look at {}\n",
+        word(m, "limit/next_part"), number(m, "limit/utilisation"), word(m, "limit/key"));
+  }
+  return fmt::format("limit               {} at {:.1f} % of the time ({}); next {} at {:.1f} fps\n",
+                     word(m, "limit/part"), number(m, "limit/utilisation"), word(m, "limit/key"),
+                     word(m, "limit/next_part"), number(m, "limit/next_frame_rate"));
+}
+
 std::string quality_lines(const MetricGroup& m) {
   std::string text;
   for (const MetricGroup& group : m.groups) {
     if (group.name != "quality" || group.metrics.empty()) continue;
     text += fmt::format("valid pixels        {:.1f} % of the image\n", number(m, "quality/valid_share"));
     if (group.metrics.size() == 1) continue;
+    if (number(m, "quality/scored_pixels") == 0) {
+      text += "ground truth        no pixel to score\n";
+      continue;
+    }
     text += fmt::format(
         "ground truth        coverage {:.1f} %, bad-1 {:.2f} %, bad-2 {:.2f} %, bad-3 {:.2f} %, mean error "
         "{:.3f} px\n",
@@ -76,9 +92,7 @@ std::string summary(const MetricGroup& m) {
   text += fmt::format("                    {:.3f} ms from exposure to the host, first frame {:.3f} ms\n",
                       number(m, "latency/exposure_to_host_mean"),
                       number(m, "latency/exposure_to_host_first_frame"));
-  text += fmt::format("limit               {} at {:.1f} % of the time ({}); next {} at {:.1f} fps\n",
-                      word(m, "limit/part"), number(m, "limit/utilisation"), word(m, "limit/key"),
-                      word(m, "limit/next_part"), number(m, "limit/next_frame_rate"));
+  text += limit_line(m);
   text += fmt::format("memory              {:.1f} of {:.0f} MB/s usable, {:.1f} %\n",
                       number(m, "memory/bandwidth"), number(m, "memory/usable_bandwidth"),
                       number(m, "memory/share"));

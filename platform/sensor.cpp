@@ -24,9 +24,9 @@ void Sensor::run() {
   const std::int64_t bytes = std::int64_t{config_.width} * config_.height;
   for (;;) {
     while (images_.empty()) sc_core::wait(exposed_);
-    const SensorImage image = std::move(images_.front());
+    if (const SensorImage image = images_.front())
+      dataflow_.post([this, image] { out_bursts.send_row(image->data(), image->size()); });
     images_.pop_front();
-    if (image) dataflow_.post([this, image] { out_bursts.send_row(image->data(), image->size()); });
     const Cycles begin = clock_.now();
     for (std::int64_t at = 0; at < bytes; at += config_.burst.count()) {
       const std::int64_t last = std::min(at + config_.burst.count(), bytes) - 1;

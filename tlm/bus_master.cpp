@@ -22,7 +22,7 @@ void BusMaster::wait_for_place() {
 }
 
 void BusMaster::send(::tlm::tlm_generic_payload& payload) {
-  ++in_flight_;
+  change_in_flight(1);
   requesting_ = &payload;
   ::tlm::tlm_phase phase = ::tlm::BEGIN_REQ;
   sc_core::sc_time delay = sc_core::SC_ZERO_TIME;
@@ -76,10 +76,20 @@ void BusMaster::answered(::tlm::tlm_generic_payload& payload) {
                                 payload.get_address(), payload.get_response_string())
                         .c_str());
   }
-  --in_flight_;
+  change_in_flight(-1);
   moved_.notify(sc_core::SC_ZERO_TIME);
   response_(payload);
   payload.release();
+}
+
+void BusMaster::change_in_flight(int by) {
+  occupied_ = occupied();
+  occupied_until_ = sc_core::sc_time_stamp();
+  in_flight_ = static_cast<std::uint32_t>(static_cast<int>(in_flight_) + by);
+}
+
+sc_core::sc_time BusMaster::occupied() const {
+  return occupied_ + (sc_core::sc_time_stamp() - occupied_until_) * in_flight_;
 }
 
 void BusMaster::read_now(std::uint64_t address, std::uint8_t* data, std::size_t size) {

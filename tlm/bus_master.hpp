@@ -33,6 +33,10 @@ class BusMaster final : public sc_core::sc_module {
 
   std::uint32_t in_flight() const { return in_flight_; }
 
+  /// Time that requests were under way until now, summed over them: at most `outstanding` times the present
+  /// time.
+  sc_core::sc_time occupied() const;
+
  private:
   ::tlm::tlm_sync_enum nb_transport_bw(::tlm::tlm_generic_payload& payload, ::tlm::tlm_phase& phase,
                                        sc_core::sc_time& delay);
@@ -40,12 +44,15 @@ class BusMaster final : public sc_core::sc_module {
   bool take_phase(::tlm::tlm_generic_payload& payload, const ::tlm::tlm_phase& phase);
   void end_response(::tlm::tlm_generic_payload& payload);
   void answered(::tlm::tlm_generic_payload& payload);
+  void change_in_flight(int by);
 
   PayloadPool pool_;
   std::uint32_t outstanding_;
   std::function<void(::tlm::tlm_generic_payload&)> response_;
   tlm_utils::peq_with_cb_and_phase<BusMaster> later_;  // phases that the target dated in the future
   std::uint32_t in_flight_ = 0;
+  sc_core::sc_time occupied_;
+  sc_core::sc_time occupied_until_;
   ::tlm::tlm_generic_payload* requesting_ = nullptr;  // sent, END_REQ not seen
   sc_core::sc_event moved_;
 };

@@ -50,10 +50,10 @@ void DmaReader::run() {
   Cycles next(0);
   for (;;) {
     while (jobs_.empty()) sc_core::wait(started_);
-    const DmaJob job = std::move(jobs_.front());
+    job_ = std::move(jobs_.front());
     jobs_.pop_front();
-    const std::uint64_t bytes = job.bytes();
-    ends_.emplace_back(requested_ + burst_count(bytes, config_.burst), job.done);
+    const std::uint64_t bytes = job_.bytes();
+    ends_.emplace_back(requested_ + burst_count(bytes, config_.burst), job_.done);
     finish(ends_, answered_);  // a job without bytes
     std::size_t row = 0;
     std::uint64_t row_start = 0;
@@ -62,21 +62,20 @@ void DmaReader::run() {
       for (int i = 0; i < out_bursts.size(); ++i) out_bursts[i]->wait_writable(requested_ - answered_);
       master.wait_for_place();
       clock_.wait_until(std::max(next, clock_.now()));
-      send_rows(job, row, row_start, at + size);
+      send_rows(row, row_start, at + size);
       ++requested_;
       next = clock_.now() + Cycles(1);
-      master.send(master.pool().take(::tlm::TLM_READ_COMMAND, job.address + at, size));
+      master.send(master.pool().take(::tlm::TLM_READ_COMMAND, job_.address + at, size));
     }
   }
 }
 
 // Hands on the rows that begin before byte `until` of the job.
-void DmaReader::send_rows(const DmaJob& job, std::size_t& row, std::uint64_t& row_start,
-                          std::uint64_t until) {
-  for (; row < job.row_bytes.size() && row_start < until; row_start += job.row_bytes[row++]) {
-    if (!job.values) continue;
-    std::vector<std::uint8_t> bytes(job.row_bytes[row]);
-    master.read_now(job.address + row_start, bytes.data(), bytes.size());
+void DmaReader::send_rows(std::size_t& row, std::uint64_t& row_start, std::uint64_t until) {
+  for (; row < job_.row_bytes.size() && row_start < until; row_start += job_.row_bytes[row++]) {
+    if (!job_.values) continue;
+    std::vector<std::uint8_t> bytes(job_.row_bytes[row]);
+    master.read_now(job_.address + row_start, bytes.data(), bytes.size());
     // In the engine, not here: whole rows go through all the kernels, and a thread's stack is small.
     out_bursts[0]->dataflow().post(
         [this, row_values = std::move(bytes)] { out_bursts.send_row(row_values.data(), row_values.size()); });
@@ -111,10 +110,10 @@ void DmaWriter::run() {
   const auto burst = static_cast<std::uint64_t>(config_.burst.count());
   for (;;) {
     while (jobs_.empty()) sc_core::wait(started_);
-    const DmaJob job = std::move(jobs_.front());
+    job_ = std::move(jobs_.front());
     jobs_.pop_front();
-    const std::uint64_t bytes = job.bytes();
-    ends_.emplace_back(requested_ + burst_count(bytes, config_.burst), job.done);
+    const std::uint64_t bytes = job_.bytes();
+    ends_.emplace_back(requested_ + burst_count(bytes, config_.burst), job_.done);
     finish(ends_, answered_);  // a job without bytes
     for (std::uint64_t at = 0; at < bytes; at += burst) {
       const std::uint64_t size = std::min(burst, bytes - at);
@@ -122,8 +121,8 @@ void DmaWriter::run() {
       master.wait_for_place();
       clock_.wait_until(clock_.now());
       ::tlm::tlm_generic_payload& payload =
-          master.pool().take(::tlm::TLM_WRITE_COMMAND, job.address + at, size);
-      if (job.values) {
+          master.pool().take(::tlm::TLM_WRITE_COMMAND, job_.address + at, size);
+      if (job_.values) {
         if (bytes_.size() < size) {
           SC_REPORT_ERROR("/parallax/dma/values",
                           (std::string(name()) + ": a burst is due before its bytes").c_str());

@@ -52,12 +52,13 @@ class DmaReader final : public sc_core::sc_module {
 
  private:
   void run();
-  void send_rows(const DmaJob& job, std::size_t& row, std::uint64_t& row_start, std::uint64_t until);
+  void send_rows(std::size_t& row, std::uint64_t& row_start, std::uint64_t until);
   void arrived();
 
   const DmaEngineConfig config_;
   const ClockDomain& clock_;
   std::deque<DmaJob> jobs_;
+  DmaJob job_;  // under way; a member, because a thread that never ends frees nothing
   sc_core::sc_event started_;
   std::deque<std::pair<std::uint64_t, std::function<void()>>>
       ends_;  // answers until a job is done, its callback
@@ -84,6 +85,7 @@ class DmaWriter final : public sc_core::sc_module {
   const DmaEngineConfig config_;
   const ClockDomain& clock_;
   std::deque<DmaJob> jobs_;
+  DmaJob job_;  // under way; a member, because a thread that never ends frees nothing
   sc_core::sc_event started_;
   std::deque<std::uint8_t> bytes_;
   std::deque<std::pair<std::uint64_t, std::function<void()>>> ends_;

@@ -38,6 +38,11 @@ void Memory::end_of_elaboration() {
   last_served_ = ports_.empty() ? 0 : ports_.size() - 1;  // the first turn is the first port's
 }
 
+Cycles Memory::bus_taken(std::size_t port) const {
+  const Cycles to_come = port == last_served_ ? std::max(Cycles(0), bus_free_ - clock_.now()) : Cycles(0);
+  return ports_[port].statistics.bus - to_come;
+}
+
 double Memory::usable_bandwidth() const {
   return static_cast<double>(timing_.bytes_per_cycle.count()) * static_cast<double>(timing_.efficiency) /
          100.0 * static_cast<double>(clock_.frequency().count());

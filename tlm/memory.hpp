@@ -53,6 +53,8 @@ class Memory final : public sc_core::sc_module {
 
   const MemoryPortStatistics& statistics(std::size_t port) const { return ports_[port].statistics; }
   std::size_t ports() const { return ports_.size(); }
+  /// Cycles that the bus was taken for a port until now: what of `statistics(port).bus` has passed.
+  Cycles bus_taken(std::size_t port) const;
   const ClockDomain& clock() const { return clock_; }
   /// Bytes per second that the bus carries at most.
   double usable_bandwidth() const;
