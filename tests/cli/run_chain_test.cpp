@@ -91,11 +91,8 @@ TEST_P(RunChain, HostReceivesWhatTheKernelsCompute) {
   const Granularity granularity{static_cast<int>(config.image.width_granularity),
                                 static_cast<int>(config.image.height_granularity)};
   const StereoImages images = rectify(config.rectification, map, pad_images(raw, granularity));
-  const test::ChainConfig chain{config.census,     config.matching,          config.subpixel,
-                                config.uniqueness, config.consistency,       config.texture,
-                                config.speckle,    config.gap_interpolation, config.noise_reduction};
   const std::vector<Disparity> expected =
-      crop_disparities(test::run_chain(chain, images.left, images.right), images.left.cols, size);
+      crop_disparities(test::run_chain(config, images.left, images.right), images.left.cols, size);
 
   const std::string bytes = program.read("out/disparity.bin");
   const std::vector<std::uint16_t> values =
