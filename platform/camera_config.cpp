@@ -1,9 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "platform/camera_config.hpp"
 
+#include <fmt/format.h>
+
 #include "platform/schema.hpp"
+#include "tlm/error.hpp"
 
 namespace parallax {
+namespace {
+
+constexpr double kSlowestRate = 0.001;  // frames/s; below, the dates of a run leave 64 bit
+
+}  // namespace
+
+
+void CameraConfig::validate() const {
+  if (frame_rate != 0 && frame_rate < kSlowestRate) {
+    throw UserError(fmt::format("camera.frame_rate = {}: must be 0 or at least {} frames/s", frame_rate, kSlowestRate));
+  }
+}
 
 void describe(Schema& schema, CameraConfig& config) {
   schema.real("camera.frame_rate", config.frame_rate, {0.0, 100'000.0}, "frames/s",

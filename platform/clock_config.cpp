@@ -18,7 +18,7 @@ void describe(Schema& schema, ClockConfig& config) {
                  "Pixel clock of a sensor: one pixel a cycle between the blanking intervals.",
                  chosen("not published; fast enough not to limit the rates of the paper's table 1"));
   schema.integer("clocks.link_hz", config.link_hz, kHertz, "Hz",
-                 "Clock of the Ethernet interface, one byte a cycle.",
+                 "Clock in which the link's time is counted; its rate is link.line_rate.",
                  stated("IEEE 802.3: gigabit media-independent interface, 125 MHz"));
 }
 

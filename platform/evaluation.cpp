@@ -40,6 +40,10 @@ std::vector<T> pixels_of(const cv::Mat& image) {
   return {image.begin<T>(), image.end<T>()};
 }
 
+bool is_scored(const GroundTruth& truth, std::size_t pixel) {
+  return truth.disparity[pixel] != 0 && (truth.mask.empty() || truth.mask[pixel] == kScored);
+}
+
 double share(std::int64_t part, std::int64_t whole) {
   return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
 }
@@ -61,6 +65,12 @@ GroundTruth read_ground_truth(const std::string& path, const std::string& mask_p
     }
     result.mask = pixels_of<std::uint8_t>(mask);
   }
+  bool any = false;
+  for (std::size_t i = 0; i < result.disparity.size() && !any; ++i) any = is_scored(result, i);
+  if (!any) {
+    throw UserError(path + ": no pixel to score; every disparity is 0 (unknown)" +
+                    (mask_path.empty() ? "" : " or masked by " + mask_path));
+  }
   return result;
 }
 
@@ -73,7 +83,7 @@ Evaluation evaluate(const std::vector<Disparity>& disparity, int width, const Gr
   Evaluation result;
   result.pixels = static_cast<std::int64_t>(disparity.size());
   for (std::size_t i = 0; i < disparity.size(); ++i) {
-    if (truth.disparity[i] == 0 || (!truth.mask.empty() && truth.mask[i] != kScored)) continue;
+    if (!is_scored(truth, i)) continue;
     ++result.scored;
     if (!disparity[i].valid()) continue;
     ++result.valid;

@@ -19,8 +19,8 @@ struct GroundTruth {
 };
 
 /// Reads a 16-bit PNG (disparity * 256, 0 = unknown) and, if mask_path is not empty, an 8-bit mask (255 =
-/// score). Throws UserError, one line, if a file is unreadable, of another pixel format, or of another size
-/// than the image.
+/// score). Throws UserError, one line, if a file is unreadable, of another pixel format, of another size
+/// than the image, or if there is no pixel to score.
 GroundTruth read_ground_truth(const std::string& path, const std::string& mask_path, int width, int height);
 
 /// One number of a result with what a reader needs to understand it.

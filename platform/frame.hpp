@@ -34,9 +34,11 @@ struct Activity {
     sc_core::sc_time occupied;  ///< summed over the DMA engine's requests under way
   };
   sc_core::sc_time time;
-  std::vector<Port> ports;  ///< in the order of the memory's ports
-  Cycles wire;              ///< link cycles with a packet on the wire
-  Cycles host;              ///< link cycles in which the host was taking pixels
+  std::vector<Port> ports;       ///< in the order of the memory's ports
+  Cycles camera;                 ///< camera cycles in which a sensor read a frame out
+  sc_core::sc_time buffer_wait;  ///< in which the cameras waited for a frame buffer
+  Cycles wire;                   ///< link cycles with a packet on the wire
+  Cycles host;                   ///< link cycles in which the host was taking pixels
 };
 
 /// What comes out for one frame. Images are row-major and of the machine's size; empty for a timing-only

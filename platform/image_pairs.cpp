@@ -11,6 +11,7 @@
 #include <optional>
 #include <set>
 #include <sstream>
+#include <string_view>
 #include <utility>
 
 #include "tlm/error.hpp"
@@ -25,6 +26,8 @@ std::string lower(std::string text) {
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return text;
 }
+
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";  // some editors put it before UTF-8 text
 
 bool is_image(const fs::path& path) {
   static const std::set<std::string> kExtensions{".png", ".jpg", ".jpeg", ".bmp",  ".pgm",
@@ -167,6 +170,7 @@ std::vector<ImagePair> pairs_of_list(const fs::path& list) {
   std::vector<ImagePair> pairs;
   std::string line;
   for (int number = 1; std::getline(file, line); ++number) {
+    if (number == 1 && line.rfind(kByteOrderMark, 0) == 0) line.erase(0, kByteOrderMark.size());
     std::istringstream words(line);
     std::vector<std::string> paths;
     for (std::string word; words >> std::ws && words.peek() != '#' && words >> std::quoted(word);) {
@@ -232,7 +236,8 @@ bool natural_less(const std::string& a, const std::string& b) {
 }
 
 std::vector<ImagePair> find_image_pairs(const fs::path& folder_or_list) {
-  if (!fs::exists(folder_or_list)) {
+  std::error_code unreadable;  // a circle of links, say
+  if (!fs::exists(folder_or_list, unreadable)) {
     throw UserError(fmt::format("{} does not exist; expected a folder or a list of image pairs",
                                 folder_or_list.string()));
   }

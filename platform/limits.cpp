@@ -67,21 +67,18 @@ std::vector<PartLoad> part_loads(const Machine& machine, const SteadyWindow& win
                    memory_clock.seconds(bus) / frames});
 
   const ClockDomain& camera_clock = machine.camera_clock();
-  const Cycles exposures = cycles_between(camera_clock, machine.times()[window.first].exposed,
-                                          machine.times()[window.last].exposed);
-  const Cycles read_out = machine.sensor().frame_time();
   loads.push_back({"camera", "clocks.camera_hz",
-                   ratio(read_out * static_cast<std::int64_t>(window.frames()), exposures),
-                   camera_clock.seconds(read_out)});
+                   ratio(last.camera - first.camera, cycles_between(camera_clock, first.time, last.time)),
+                   camera_clock.seconds(machine.sensor().frame_time())});
+  const double elapsed = (last.time - first.time).to_seconds();
   if (config.camera.frame_rate > 0) {
-    // The due dates are rounded down to pixel clocks, so that the mean period may be a fraction of one short.
-    const double period = 1.0 / config.camera.frame_rate;
-    loads.push_back({"camera_frame_rate", "camera.frame_rate",
-                     std::min(1.0, period * frames / camera_clock.seconds(exposures)), period});
+    // The cameras keep their rate but for the time in which they wait for a buffer.
+    const double waited = (last.buffer_wait - first.buffer_wait).to_seconds();
+    loads.push_back(
+        {"camera_frame_rate", "camera.frame_rate", 1.0 - waited / elapsed, 1.0 / config.camera.frame_rate});
   }
 
   const std::vector<std::uint32_t> places = machine.dma_places();
-  const double elapsed = (last.time - first.time).to_seconds();
   for (std::size_t port = 0; port < last.ports.size(); ++port) {
     const double occupied =
         (last.ports[port].occupied - first.ports[port].occupied).to_seconds() / places[port];

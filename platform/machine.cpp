@@ -105,9 +105,7 @@ Machine::Machine(const sc_core::sc_module_name& name, const MachineConfig& confi
 void Machine::expose_frames() {
   place_map();
   for (std::int64_t frame = 0;; ++frame) {
-    while (input_buffers_used_ == static_cast<std::int64_t>(memory_map_.frames.size())) {
-      sc_core::wait(input_buffer_free_);
-    }
+    wait_for_input_buffer();
     if (config_.camera.frame_rate > 0) {
       const double due = static_cast<double>(frame) / config_.camera.frame_rate;
       camera_clock_.wait_until(
@@ -118,6 +116,16 @@ void Machine::expose_frames() {
     const Cycles read_out = left_sensor_.frame_time();
     camera_clock_.wait_until(camera_clock_.cycle_at_or_after(times_.back().exposed) + read_out);
   }
+}
+
+void Machine::wait_for_input_buffer() {
+  waits_for_buffer_ = true;
+  buffer_wait_began_ = sc_core::sc_time_stamp();
+  while (input_buffers_used_ == static_cast<std::int64_t>(memory_map_.frames.size())) {
+    sc_core::wait(input_buffer_free_);
+  }
+  waits_for_buffer_ = false;
+  buffer_wait_ += sc_core::sc_time_stamp() - buffer_wait_began_;
 }
 
 void Machine::place_map() {
@@ -272,6 +280,9 @@ Activity Machine::activity() {
     activity.ports.push_back(
         {memory_.statistics(port).bytes(), memory_.bus_taken(port), engines[port]->occupied()});
   }
+  activity.camera = left_sensor_.busy();
+  activity.buffer_wait = buffer_wait_;
+  if (waits_for_buffer_) activity.buffer_wait += activity.time - buffer_wait_began_;
   activity.wire = link_.wire_busy();
   activity.host = link_.host_busy();
   return activity;

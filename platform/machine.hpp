@@ -70,6 +70,7 @@ class Machine final : public sc_core::sc_module {
   void results_in_memory(std::int64_t frame);
   void take_row(const Gray* left, const Disparity* row);
   void deliver(std::int64_t frame, const std::vector<std::uint8_t>& bytes);
+  void wait_for_input_buffer();
   void expose(std::int64_t frame);
   void place_map();
   std::vector<BusMaster*> masters();  // in the order of the memory's ports
@@ -105,8 +106,11 @@ class Machine final : public sc_core::sc_module {
   std::vector<bool> values_;             // whether a frame carries images
   std::int64_t input_buffers_used_ = 0;  // frames from exposure until both images are read
   sc_core::sc_event input_buffer_free_;
-  std::int64_t to_output_ = 0;   // next frame that gets an output buffer
-  std::int64_t processing_ = 0;  // frames handed to the pipeline
+  bool waits_for_buffer_ = false;
+  sc_core::sc_time buffer_wait_;        // of the waits that are over
+  sc_core::sc_time buffer_wait_began_;  // of the one under way
+  std::int64_t to_output_ = 0;          // next frame that gets an output buffer
+  std::int64_t processing_ = 0;         // frames handed to the pipeline
   std::int64_t output_buffers_used_ = 0;
   std::int64_t delivered_ = 0;
   std::deque<std::vector<Disparity>> labelled_;  // frames on their way to the host, as the pipeline made them

@@ -8,6 +8,7 @@ namespace parallax {
 
 void MachineConfig::validate() const {
   image.validate();
+  camera.validate();
   dma.validate();
   link.validate();
   rectification.validate();

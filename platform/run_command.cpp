@@ -47,9 +47,9 @@ void add_run_command(CLI::App& app, CommandContext& context) {
   command.add_option("--size", options->size, "Size of the built-in scene, 640x480 if not given")
       ->type_name("WxH")
       ->group("Input");
-  command.add_option("--seed", options->scene.seed, "Seed of the built-in scene")
-      ->capture_default_str()
-      ->group("Input");
+  command.option_defaults()->group("Input");
+  add_seed_option(command, options->scene.seed, "Seed of the built-in scene");
+  command.option_defaults()->group("Options");
   command.add_flag("--rectified", options->rectified, "Built-in scene without lens distortion")
       ->group("Input");
   command

@@ -184,6 +184,11 @@ MetricGroup measure(const Machine& machine, const RunTotals& totals, int image_w
   input.add({"frames", machine.input().frames, "frames", "Simulated in time.", ""});
   input.add({"frames_with_images", totals.frames, "frames", "Of these, with their images computed.", ""});
 
+  MetricGroup& camera = root.group("camera");
+  camera.add(
+      {"late_bursts", static_cast<std::int64_t>(machine.sensor().late_bursts()), "bursts",
+       "Bursts of the left sensor that found its FIFO full: the memory did not keep up with the read-out.",
+       "the whole run"});
   add_performance(root, machine, window);
   add_latency(root, machine, window);
   add_limit(root, machine, window);

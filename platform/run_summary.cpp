@@ -34,7 +34,8 @@ std::string limit_line(const MetricGroup& m) {
   if (number(m, "performance/frame_rate") == 0) return "";  // one frame has no steady state
   if (word(m, "limit/part") == "none") {
     return fmt::format(
-        "limit               no part is at work all the time; the busiest, {}, is at {:.1f} %; look at {}\n",
+        "limit               no part is at work all the time; the busiest, {}, is at {:.1f} %; look at {}, "
+        "and at the look-ahead that each frame fills anew\n",
         word(m, "limit/next_part"), number(m, "limit/utilisation"), word(m, "limit/key"));
   }
   return fmt::format("limit               {} at {:.1f} % of the time ({}); next {} at {:.1f} fps\n",

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "platform/command_context.hpp"
+#include "platform/common_options.hpp"
 #include "platform/output_folder.hpp"
 #include "platform/result_images.hpp"
 #include "platform/scene.hpp"
@@ -77,7 +78,7 @@ void add_scene_command(CLI::App& app, CommandContext& context) {
       ->capture_default_str();
   command.add_option("--disparity-offset", config.disparity_offset, "Smallest disparity")
       ->capture_default_str();
-  command.add_option("--seed", config.seed, "Textures, placement and noise")->capture_default_str();
+  add_seed_option(command, config.seed, "Seed of textures, placement and noise");
   command.add_option("--read-noise", config.read_noise, "Constant noise, grey levels")->capture_default_str();
   command.add_option("--shot-noise", config.shot_noise, "Variance per grey level of signal")
       ->capture_default_str();

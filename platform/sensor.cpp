@@ -20,6 +20,8 @@ void Sensor::read_out(SensorImage image) {
 
 Cycles Sensor::frame_time() const { return config_.row * config_.height + config_.frame_blanking; }
 
+Cycles Sensor::busy() const { return busy_ - std::max(Cycles(0), free_ - clock_.now()); }
+
 void Sensor::run() {
   const std::int64_t bytes = std::int64_t{config_.width} * config_.height;
   for (;;) {
@@ -28,6 +30,8 @@ void Sensor::run() {
       dataflow_.post([this, image] { out_bursts.send_row(image->data(), image->size()); });
     images_.pop_front();
     const Cycles begin = clock_.now();
+    busy_ += frame_time();
+    free_ = begin + frame_time();
     for (std::int64_t at = 0; at < bytes; at += config_.burst.count()) {
       const std::int64_t last = std::min(at + config_.burst.count(), bytes) - 1;
       const Cycles due = begin + config_.row * (last / config_.width) + Cycles(last % config_.width + 1);
@@ -36,7 +40,7 @@ void Sensor::run() {
       if (clock_.now() > due) ++late_bursts_;
       out_bursts[0]->commit();
     }
-    clock_.wait_until(begin + frame_time());
+    clock_.wait_until(free_);
   }
 }
 

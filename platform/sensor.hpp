@@ -38,6 +38,8 @@ class Sensor final : public sc_core::sc_module {
   void read_out(SensorImage image);
   /// Pixel clocks of one frame, blanking included.
   Cycles frame_time() const;
+  /// Pixel clocks spent on frames, blanking included, until now.
+  Cycles busy() const;
   std::uint64_t late_bursts() const { return late_bursts_; }
 
  private:
@@ -48,6 +50,8 @@ class Sensor final : public sc_core::sc_module {
   Dataflow& dataflow_;
   std::deque<SensorImage> images_;
   sc_core::sc_event exposed_;
+  Cycles busy_;
+  Cycles free_{0};  // end of the frame being read out
   std::uint64_t late_bursts_ = 0;
 };
 

@@ -106,6 +106,8 @@ TEST_F(BadInput, Configuration) {
             std::string::npos);
   EXPECT_EQ(pair_error("--disparities 100"),
             "--disparities 100: must be a positive multiple of matching.parallelism = 32");
+  EXPECT_EQ(pair_error("--set camera.frame_rate=1e-9").rfind("camera.frame_rate = 1e-09: must be 0 or at least 0.001 frames/s", 0),
+            0U);
   EXPECT_NE(pair_error("--preset scenescan-por").find("scenescan-pro"), std::string::npos);
 }
 
@@ -125,6 +127,11 @@ TEST_F(BadInput, OptionsThatContradict) {
   EXPECT_EQ(error("--size 64"), "--size: '64' is not a size such as 640x480");
   EXPECT_EQ(error("--leftt left.png"), "unknown option --leftt; the nearest is --left");
   EXPECT_EQ(error("left.png"), "unexpected argument 'left.png'");
+  EXPECT_EQ(error("--size 64x48 --set image.width=64"),
+            "--size and image.width or image.height exclude each other: both say how large the scene is");
+  EXPECT_EQ(error("--size 64x48 --seed -1"), "--seed: '-1' is not a whole number of at most 18 digits");
+  EXPECT_EQ(error("--size 64x48 --seed 99999999999999999999"),
+            "--seed: '99999999999999999999' is not a whole number of at most 18 digits");
   EXPECT_NE(error("--frames many"), "");
   EXPECT_NE(error("--left"), "");
   EXPECT_EQ(error("--left '' --right ''"), "--left: the name is empty");
@@ -142,6 +149,12 @@ TEST_F(BadInput, GroundTruth) {
   EXPECT_NE(pair_error("--ground-truth bytes.png").find("16"), std::string::npos);
   EXPECT_NE(pair_error("--ground-truth truth.png --mask mask.png").find("mask.png"), std::string::npos);
   EXPECT_EQ(pair_error("--mask mask.png"), "--mask needs --ground-truth");
+  image("unknown.png", cv::Mat(48, 64, CV_16UC1, cv::Scalar(0)));
+  image("black.png", cv::Mat(48, 64, CV_8UC1, cv::Scalar(0)));
+  EXPECT_EQ(pair_error("--ground-truth unknown.png"),
+            "unknown.png: no pixel to score; every disparity is 0 (unknown)");
+  EXPECT_EQ(pair_error("--ground-truth truth.png --mask black.png"),
+            "truth.png: no pixel to score; every disparity is 0 (unknown) or masked by black.png");
   EXPECT_EQ(error("--ground-truth truth.png"),
             "--ground-truth and --mask go with --left and --right; the built-in scene brings its own");
 }
@@ -189,6 +202,8 @@ TEST_F(BadInput, Sequences) {
   EXPECT_EQ(error("--input one.txt"), "one.txt:1: 1 path in this line, expected two: left right");
   EXPECT_EQ(error("--input gone.txt"), "gone.txt:2: none.png does not exist");
   EXPECT_NE(error("--input left.png"), "");
+  fs::create_symlink("circle", program_ / "circle");
+  EXPECT_EQ(error("--input circle"), "circle does not exist; expected a folder or a list of image pairs");
 }
 
 TEST_F(BadInput, AFrameThatBreaksLeavesThoseBeforeItComplete) {

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+// What limits the machine, and that the steady state is one: by the program, on small frames.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "platform/limits.hpp"
+#include "tests/cli/program.hpp"
+
+namespace parallax {
+namespace {
+
+class Limits : public ::testing::Test {
+ protected:
+  nlohmann::json run(const std::string& arguments) const {
+    const test::Outcome outcome = program_("run --json --disparities 32 " + arguments);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    const nlohmann::json tree = nlohmann::json::parse(outcome.out);
+    for (const auto& [part, metric] : tree["limit"]["utilisation_by_part"].items()) {
+      EXPECT_GE(metric["value"].get<double>(), 0.0) << part << ' ' << arguments;
+      EXPECT_LE(metric["value"].get<double>(), 100.0) << part << ' ' << arguments;
+    }
+    EXPECT_LE(tree["memory"]["share"]["value"].get<double>(), 100.0) << arguments;
+    return tree;
+  }
+  static std::string limit(const nlohmann::json& tree) { return tree["limit"]["part"]["value"]; }
+  static double rate(const nlohmann::json& tree) { return tree["performance"]["frame_rate"]["value"]; }
+
+  test::Program program_;
+};
+
+TEST_F(Limits, TheLimitingPartIsNamed) {
+  EXPECT_EQ(limit(run("--size 64x48 --set link.host_pixel_rate=1e6")), "host");
+  EXPECT_EQ(limit(run("--size 64x48 --set link.line_rate=1e6")), "link");
+  EXPECT_EQ(limit(run("--size 64x48 --set clocks.camera_hz=1e6")), "camera");
+  EXPECT_EQ(limit(run("--size 64x48 --set camera.frame_rate=30")), "camera_frame_rate");
+  EXPECT_EQ(limit(run("--size 64x48 --set memory.bytes_per_cycle=1 --set clocks.memory_hz=20e6")), "memory");
+  EXPECT_EQ(limit(run("--size 256x192 --disparities 256 --set link.host_pixel_rate=0")), "matching");
+  EXPECT_EQ(limit(run("--size 64x48 --set dma.left.burst_bytes=8 --set dma.left.outstanding=1 "
+                      "--set memory.latency_cycles=2000 --set link.host_pixel_rate=0")),
+            "dma_left");
+  const nlohmann::json buffers = run("--size 64x48 --set camera.frame_buffers=1 --set link.output_buffers=1");
+  EXPECT_EQ(limit(buffers), "none");
+  EXPECT_NE(buffers["limit"]["key"]["value"].get<std::string>().find("camera.frame_buffers"), std::string::npos);
+}
+
+TEST_F(Limits, RatesEqualHandCalculation) {
+  // 3072 pixels at 1 Mpx/s; 3072 * 2.5 bytes in packets of 1468 with 70 bytes around them at 1 Mbit/s.
+  EXPECT_NEAR(rate(run("--size 64x48 --set link.host_pixel_rate=1e6")), 1e6 / 3072, 0.01);
+  EXPECT_NEAR(rate(run("--size 64x48 --set link.line_rate=1e6")), 1e6 / (8 * (7680 + 6 * 70)), 1e-3);
+  EXPECT_NEAR(rate(run("--size 64x48 --set camera.frame_rate=30")), 30, 1e-3);
+  // 48 rows of 64 pixels and 32 of blanking, and 2048 after the frame.
+  EXPECT_NEAR(rate(run("--size 64x48 --set clocks.camera_hz=1e6")), 1e6 / (48 * 96 + 2048), 1e-3);
+}
+
+TEST_F(Limits, TheSteadyStateDoesNotDependOnItsLength) {
+  const std::string slow = "--size 64x48 --set memory.bytes_per_cycle=1 --set clocks.memory_hz=50e6 --timing-frames ";
+  const double expected = rate(run(slow + "60"));
+  for (const char* frames : {"4", "8", "9", "20"}) EXPECT_NEAR(rate(run(slow + frames)) / expected, 1, 2e-3) << frames;
+}
+
+TEST_F(Limits, OneFrameHasNoSteadyState) {
+  const nlohmann::json tree = run("--size 64x48 --timing-frames 1");
+  EXPECT_EQ(rate(tree), 0);
+  EXPECT_FALSE(tree.contains("limit"));
+}
+
+TEST(FindLimit, TheFirstOfEqualsThatIsAtWorkAllTheTime) {
+  const LimitVerdict verdict = find_limit({{"a", "", 0.5, 5}, {"b", "", 0.995, 9.9}, {"c", "", 1.0, 10}});
+  EXPECT_TRUE(verdict.limited);
+  EXPECT_EQ(verdict.busiest.part, "b");
+  EXPECT_EQ(verdict.next.part, "a");
+}
+
+TEST(FindLimit, NoneWhenAllHaveTimeToSpare) {
+  const LimitVerdict verdict = find_limit({{"a", "", 0.5, 5}, {"b", "", 0.94, 9.4}});
+  EXPECT_FALSE(verdict.limited);
+  EXPECT_EQ(verdict.busiest.part, "b");
+}
+
+}  // namespace
+}  // namespace parallax
