@@ -7,7 +7,7 @@
 #include <systemc>
 #include <vector>
 
-#include "platform/link_config.hpp"
+#include "platform/config/link_config.hpp"
 #include "tlm/pacer.hpp"
 #include "tlm/stream.hpp"
 

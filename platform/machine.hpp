@@ -9,9 +9,9 @@
 #include <systemc>
 #include <vector>
 
+#include "platform/config/machine_config.hpp"
 #include "platform/ethernet_link.hpp"
 #include "platform/frame.hpp"
-#include "platform/machine_config.hpp"
 #include "platform/memory_map.hpp"
 #include "platform/pipeline.hpp"
 #include "tlm/memory.hpp"

@@ -3,7 +3,7 @@
 #include <iostream>
 #include <systemc>
 
-#include "platform/cli.hpp"
+#include "platform/commands/cli.hpp"
 
 namespace {
 

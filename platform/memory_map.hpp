@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "modules/map_codec.hpp"
-#include "platform/machine_config.hpp"
+#include "platform/config/machine_config.hpp"
 
 namespace parallax {
 

@@ -19,7 +19,7 @@
 #include "modules/subpixel_stage.hpp"
 #include "modules/texture_stage.hpp"
 #include "modules/uniqueness_stage.hpp"
-#include "platform/machine_config.hpp"
+#include "platform/config/machine_config.hpp"
 #include "tlm/dma.hpp"
 #include "tlm/unpacker.hpp"
 

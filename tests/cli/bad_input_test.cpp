@@ -106,7 +106,8 @@ TEST_F(BadInput, Configuration) {
             std::string::npos);
   EXPECT_EQ(pair_error("--disparities 100"),
             "--disparities 100: must be a positive multiple of matching.parallelism = 32");
-  EXPECT_EQ(pair_error("--set camera.frame_rate=1e-9").rfind("camera.frame_rate = 1e-09: must be 0 or at least 0.001 frames/s", 0),
+  EXPECT_EQ(pair_error("--set camera.frame_rate=1e-9")
+                .rfind("camera.frame_rate = 1e-09: must be 0 or at least 0.001 frames/s", 0),
             0U);
   EXPECT_NE(pair_error("--preset scenescan-por").find("scenescan-pro"), std::string::npos);
 }

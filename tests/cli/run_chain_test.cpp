@@ -7,12 +7,12 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "modules/rectification.hpp"
-#include "platform/calibration.hpp"
-#include "platform/configuration.hpp"
-#include "platform/disparity_bin.hpp"
-#include "platform/image_padding.hpp"
-#include "platform/map_builder.hpp"
-#include "platform/preset.hpp"
+#include "platform/config/configuration.hpp"
+#include "platform/config/preset.hpp"
+#include "platform/input/calibration.hpp"
+#include "platform/input/image_padding.hpp"
+#include "platform/input/map_builder.hpp"
+#include "platform/results/disparity_bin.hpp"
 #include "tests/cli/program.hpp"
 #include "tests/fidelity/stereo_chain.hpp"
 

@@ -7,7 +7,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
-#include "platform/disparity_bin.hpp"
+#include "platform/results/disparity_bin.hpp"
 #include "tests/cli/program.hpp"
 
 namespace parallax {

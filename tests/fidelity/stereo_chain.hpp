@@ -15,7 +15,7 @@
 #include "modules/subpixel.hpp"
 #include "modules/texture.hpp"
 #include "modules/uniqueness.hpp"
-#include "platform/configuration.hpp"
+#include "platform/config/configuration.hpp"
 
 namespace parallax::test {
 

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "platform/evaluation.hpp"
+#include "platform/results/evaluation.hpp"
 
 namespace parallax::test {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "platform/calibration.hpp"
+#include "platform/input/calibration.hpp"
 
 #include <gtest/gtest.h>
 

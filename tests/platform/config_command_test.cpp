@@ -6,7 +6,7 @@
 #include <regex>
 #include <sstream>
 
-#include "platform/cli.hpp"
+#include "platform/commands/cli.hpp"
 #include "tests/platform/temporary_folder.hpp"
 
 namespace parallax {

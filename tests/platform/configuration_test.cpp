@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "platform/configuration.hpp"
+#include "platform/config/configuration.hpp"
 
 #include <gtest/gtest.h>
 
 #include <set>
 
-#include "platform/preset.hpp"
-#include "platform/preset_file.hpp"
-#include "platform/schema.hpp"
+#include "platform/config/preset.hpp"
+#include "platform/config/preset_file.hpp"
+#include "platform/config/schema.hpp"
 #include "tests/platform/error_of.hpp"
 #include "tests/platform/temporary_folder.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "platform/evaluation.hpp"
+#include "platform/results/evaluation.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "platform/image_input.hpp"
+#include "platform/input/image_input.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,9 +9,9 @@
 #include <opencv2/imgproc.hpp>
 
 #include "error_line.hpp"
-#include "platform/image_padding.hpp"
-#include "platform/scene_hash.hpp"
-#include "platform/stderr_capture.hpp"
+#include "platform/input/image_padding.hpp"
+#include "platform/input/stderr_capture.hpp"
+#include "platform/scene/scene_hash.hpp"
 #include "temporary_folder.hpp"
 #include "tlm/error.hpp"
 

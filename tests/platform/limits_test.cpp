@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "platform/limits.hpp"
+#include "platform/results/limits.hpp"
 #include "tests/cli/program.hpp"
 
 namespace parallax {
@@ -42,7 +42,8 @@ TEST_F(Limits, TheLimitingPartIsNamed) {
             "dma_left");
   const nlohmann::json buffers = run("--size 64x48 --set camera.frame_buffers=1 --set link.output_buffers=1");
   EXPECT_EQ(limit(buffers), "none");
-  EXPECT_NE(buffers["limit"]["key"]["value"].get<std::string>().find("camera.frame_buffers"), std::string::npos);
+  EXPECT_NE(buffers["limit"]["key"]["value"].get<std::string>().find("camera.frame_buffers"),
+            std::string::npos);
 }
 
 TEST_F(Limits, RatesEqualHandCalculation) {
@@ -55,9 +56,11 @@ TEST_F(Limits, RatesEqualHandCalculation) {
 }
 
 TEST_F(Limits, TheSteadyStateDoesNotDependOnItsLength) {
-  const std::string slow = "--size 64x48 --set memory.bytes_per_cycle=1 --set clocks.memory_hz=50e6 --timing-frames ";
+  const std::string slow =
+      "--size 64x48 --set memory.bytes_per_cycle=1 --set clocks.memory_hz=50e6 --timing-frames ";
   const double expected = rate(run(slow + "60"));
-  for (const char* frames : {"4", "8", "9", "20"}) EXPECT_NEAR(rate(run(slow + frames)) / expected, 1, 2e-3) << frames;
+  for (const char* frames : {"4", "8", "9", "20"})
+    EXPECT_NEAR(rate(run(slow + frames)) / expected, 1, 2e-3) << frames;
 }
 
 TEST_F(Limits, OneFrameHasNoSteadyState) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "platform/map_builder.hpp"
+#include "platform/input/map_builder.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 
 #include "modules/map_codec.hpp"
 #include "modules/rectification.hpp"
-#include "platform/map_fit.hpp"
+#include "platform/input/map_fit.hpp"
 #include "tests/platform/test_calibrations.hpp"
 
 namespace parallax {

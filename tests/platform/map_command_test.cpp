@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "platform/map_command.hpp"
+#include "platform/commands/map_command.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,10 +10,10 @@
 #include <opencv2/imgcodecs.hpp>
 #include <sstream>
 
-#include "platform/command_context.hpp"
-#include "platform/map_info.hpp"
-#include "platform/map_storage.hpp"
-#include "platform/raw_map_file.hpp"
+#include "platform/commands/command_context.hpp"
+#include "platform/input/map_info.hpp"
+#include "platform/input/map_storage.hpp"
+#include "platform/input/raw_map_file.hpp"
 #include "tests/platform/test_calibrations.hpp"
 
 namespace parallax {

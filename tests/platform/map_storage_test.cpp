@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "platform/map_storage.hpp"
+#include "platform/input/map_storage.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "platform/output_folder.hpp"
+#include "platform/results/output_folder.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/mount.h>

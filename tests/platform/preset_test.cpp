@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "platform/preset.hpp"
+#include "platform/config/preset.hpp"
 
 #include <gtest/gtest.h>
 #include <stdlib.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "platform/preset_file.hpp"
+#include "platform/config/preset_file.hpp"
 #include "tests/platform/error_of.hpp"
 #include "tests/platform/temporary_folder.hpp"
 #include "tests/platform/unprivileged.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "platform/progress.hpp"
+#include "platform/results/progress.hpp"
 
 #include <gtest/gtest.h>
 

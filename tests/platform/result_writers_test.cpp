@@ -8,10 +8,10 @@
 #include <string>
 
 #include "error_line.hpp"
-#include "platform/disparity_bin.hpp"
-#include "platform/point_cloud.hpp"
-#include "platform/result_images.hpp"
-#include "platform/scene_hash.hpp"
+#include "platform/results/disparity_bin.hpp"
+#include "platform/results/point_cloud.hpp"
+#include "platform/results/result_images.hpp"
+#include "platform/scene/scene_hash.hpp"
 #include "temporary_folder.hpp"
 #include "tlm/error.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "platform/scene_calibration.hpp"
+#include "platform/scene/scene_calibration.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "platform/scene_command.hpp"
+#include "platform/commands/scene_command.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 #include <opencv2/imgcodecs.hpp>
 #include <sstream>
 
-#include "platform/command_context.hpp"
-#include "platform/image_input.hpp"
-#include "platform/scene.hpp"
+#include "platform/commands/command_context.hpp"
+#include "platform/input/image_input.hpp"
+#include "platform/scene/scene.hpp"
 #include "tests/platform/error_line.hpp"
 #include "tests/platform/temporary_folder.hpp"
 #include "tlm/error.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "platform/scene.hpp"
+#include "platform/scene/scene.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "platform/scene_geometry.hpp"
-#include "platform/scene_hash.hpp"
+#include "platform/scene/scene_geometry.hpp"
+#include "platform/scene/scene_hash.hpp"
 
 namespace parallax {
 namespace {

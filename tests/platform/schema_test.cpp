@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "platform/schema.hpp"
+#include "platform/config/schema.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
 #include <cmath>
 
-#include "platform/nearest_name.hpp"
+#include "platform/config/nearest_name.hpp"
 #include "tests/platform/error_of.hpp"
 
 namespace parallax {

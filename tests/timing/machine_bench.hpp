@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "platform/configuration.hpp"
+#include "platform/config/configuration.hpp"
 #include "platform/machine.hpp"
 #include "tests/modules/random_maps.hpp"
 

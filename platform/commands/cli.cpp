@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "platform/commands/cli.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <iostream>
+#include <new>
+#include <string>
+#include <systemc>
+#include <vector>
+
+#include "platform/commands/command_context.hpp"
+#include "platform/commands/config_command.hpp"
+#include "platform/commands/map_command.hpp"
+#include "platform/commands/run_command.hpp"
+#include "platform/commands/scene_command.hpp"
+#include "platform/config/nearest_name.hpp"
+#include "platform/version.hpp"
+#include "tlm/error.hpp"
+
+namespace parallax {
+namespace {
+
+constexpr int kBadInput = 2;
+constexpr int kInternalError = 3;
+
+/// What could have been written where `word` stands: the options, or the commands.
+std::vector<std::string> alternatives(const CLI::App& app, const std::string& word) {
+  std::vector<std::string> names;
+  if (word.rfind('-', 0) != 0) {
+    for (const CLI::App* command : app.get_subcommands(nullptr)) names.push_back(command->get_name());
+    return names;
+  }
+  const auto add_options = [&names](const CLI::App& owner) {
+    for (const CLI::Option* option : owner.get_options()) {
+      for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    }
+  };
+  for (const CLI::App* command : app.get_subcommands()) add_options(*command);
+  add_options(app);
+  return names;
+}
+
+/// The words that no option and no command took.
+std::string unexpected(const CLI::App& app, const std::string& argument) {
+  const std::string word = argument.substr(0, argument.find('='));
+  const bool is_option = word.rfind('-', 0) == 0;
+  if (!is_option && !app.get_subcommands().empty()) return fmt::format("unexpected argument '{}'", argument);
+  return fmt::format("unknown {} {}; the nearest is {}", is_option ? "option" : "command", word,
+                     nearest_name(word, alternatives(app, word)));
+}
+
+std::string one_line(std::string text) {
+  for (char& c : text) {
+    if (c == '\n') c = ' ';
+  }
+  return text;
+}
+
+int fail(std::ostream& err, const std::string& line) {
+  err << "parallax: error: " << one_line(line) << '\n';
+  return kBadInput;
+}
+
+// A fault that no input should be able to cause: one line, never an abort.
+int fail_internally(std::ostream& err, const std::string& line) {
+  err << "parallax: internal error: " << one_line(line) << '\n';
+  return kInternalError;
+}
+
+// Quoted for a shell where need be.
+std::string command_line(int argc, const char* const* argv) {
+  constexpr const char* kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./,:@%";
+  std::string line = "parallax";
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    line += ' ';
+    if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) {
+      line += word;
+      continue;
+    }
+    line += '\'';
+    for (const char c : word) line += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    line += '\'';
+  }
+  return line;
+}
+
+/// Throws UserError with one line, or returns true when help or version was asked for and printed.
+bool parse(CLI::App& app, int argc, const char* const* argv, std::ostream& out) {
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& request) {
+    app.exit(request, out, out);
+    return true;
+  } catch (const CLI::ExtrasError&) {
+    throw UserError(unexpected(app, app.remaining(true).front()));
+  } catch (const CLI::ParseError& error) {
+    throw UserError(error.what());
+  }
+  return false;
+}
+
+}  // namespace
+
+int run_command_line(int argc, const char* const* argv) {
+  return run_command_line(argc, argv, std::cout, std::cerr);
+}
+
+int run_command_line(int argc, const char* const* argv, std::ostream& out, std::ostream& err) {
+  CLI::App app("A SystemC model of an FPGA that turns stereo image pairs into disparity maps.", "parallax");
+  app.set_version_flag("--version", fmt::format("parallax {} ({})", version(), revision()),
+                       "Print the version");
+  app.set_help_all_flag("--help-all", "Print the help of all commands");
+  bool quiet = false, verbose = false;
+  app.add_flag("-q,--quiet", quiet, "Print errors only, and what was asked for (--json)");
+  app.add_flag("-v,--verbose", verbose, "Print more")->excludes("--quiet");
+  app.fallthrough();  // the options above may follow the command
+
+  CommandContext context{out, err, command_line(argc, argv)};
+  add_run_command(app, context);
+  add_config_command(app, context);
+  add_map_command(app, context);
+  add_scene_command(app, context);
+
+  try {
+    if (parse(app, argc, argv, out)) return 0;
+    if (quiet) context.verbosity = Verbosity::kQuiet;
+    if (verbose) context.verbosity = Verbosity::kVerbose;
+    if (!context.action) throw UserError("no command given; parallax --help lists them");
+    const int code = context.action();
+    if (!out.flush()) throw UserError("cannot write to standard output");
+    return code;
+  } catch (const UserError& error) {
+    return fail(err, error.what());
+  } catch (const sc_core::sc_report& report) {
+    return fail_internally(err, fmt::format("{}: {}", report.get_msg_type(), report.get_msg()));
+  } catch (const std::bad_alloc&) {
+    return fail_internally(err, "out of memory");
+  } catch (const std::exception& error) {
+    return fail_internally(err, error.what());
+  }
+}
+
+}  // namespace parallax

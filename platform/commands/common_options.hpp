@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// Options that several commands share, with one wording and one meaning.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "platform/config/configuration.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace parallax {
+
+/// --preset, --set, --disparities: the configuration of the machine.
+void add_configuration_options(CLI::App& command, ConfigurationRequest& request);
+
+/// --seed of the built-in scene, a whole number of at most 18 digits.
+void add_seed_option(CLI::App& command, std::uint64_t& seed, const std::string& description);
+
+/// --json: machine-readable output.
+void add_json_option(CLI::App& command, bool& json);
+
+}  // namespace parallax

@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "platform/commands/run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <exception>
+#include <limits>
+#include <memory>
+#include <utility>
+
+#include "platform/commands/command_context.hpp"
+#include "platform/commands/interruption.hpp"
+#include "platform/config/config_writer.hpp"
+#include "platform/config/preset.hpp"
+#include "platform/input/frame_source.hpp"
+#include "platform/input/image_padding.hpp"
+#include "platform/input/rectification_choice.hpp"
+#include "platform/machine.hpp"
+#include "platform/results/frame_results.hpp"
+#include "platform/results/limits.hpp"
+#include "platform/results/peak_memory.hpp"
+#include "platform/results/progress.hpp"
+#include "platform/results/run_metrics.hpp"
+#include "tlm/error.hpp"
+
+namespace parallax {
+namespace {
+
+constexpr std::int64_t kMostFrames = 1'000'000'000;
+// After the warm-up: two frame periods lie between three arrivals at the host.
+constexpr std::int64_t kMeasuredFrames = 3;
+constexpr int kMachineStuck = 1;
+constexpr int kSignalled = 128;  // as shells report a program that a signal ended
+
+ImageLimits limits(const MachineConfig& config) {
+  return {static_cast<int>(config.image.max_width), static_cast<int>(config.image.max_height)};
+}
+
+std::unique_ptr<FrameSource> scene(const RunOptions& options, const MachineConfig& config) {
+  if (!options.ground_truth.empty() || !options.mask.empty()) {
+    throw UserError(
+        "--ground-truth and --mask go with --left and --right; the built-in scene brings its own");
+  }
+  SceneConfig scene_config = options.scene;
+  if (config.image.width != 0) scene_config.width = static_cast<int>(config.image.width);
+  if (config.image.height != 0) scene_config.height = static_cast<int>(config.image.height);
+  if (!options.size.empty()) {
+    if (config.image.width != 0 || config.image.height != 0) {
+      throw UserError(
+          "--size and image.width or image.height exclude each other: both say how large the scene is");
+    }
+    char rest = 0;
+    if (std::sscanf(options.size.c_str(), "%5dx%5d%c", &scene_config.width, &scene_config.height, &rest) !=
+        2) {
+      throw UserError(fmt::format("--size: '{}' is not a size such as 640x480", options.size));
+    }
+  }
+  scene_config.disparities = config.matching.range().count;
+  scene_config.disparity_offset = config.matching.disparity_offset;
+  scene_config.distortion = !options.rectified;
+  scene_config.validate();
+  return scene_source(scene_config, options.frames.value_or(1));
+}
+
+std::unique_ptr<FrameSource> open_source(const RunOptions& options, const MachineConfig& config,
+                                         const NoticeSink& notice) {
+  if (options.left.empty() != options.right.empty()) {
+    throw UserError(fmt::format("{} is missing: a pair needs --left and --right",
+                                options.left.empty() ? "--left" : "--right"));
+  }
+  if (!options.left.empty() && !options.input.empty())
+    throw UserError("--input and --left/--right exclude each other");
+  const auto count = [](const char* option, std::int64_t value) {
+    if (value >= 1 && value <= kMostFrames) return;
+    throw UserError(fmt::format("{} is {}, allowed is 1 to {}", option, value, kMostFrames));
+  };
+  count("--frames", options.frames.value_or(1));
+  count("--timing-frames", options.timing_frames.value_or(1));
+  if (!options.mask.empty() && options.ground_truth.empty()) throw UserError("--mask needs --ground-truth");
+  if (options.fit && options.calibration.empty()) throw UserError("--fit needs --calibration");
+  if (!options.map.empty() && !options.calibration.empty()) {
+    throw UserError("--map and --calibration exclude each other: both say how to rectify");
+  }
+  if (options.left.empty() && options.input.empty()) return scene(options, config);
+  if (!options.size.empty() || options.rectified) {
+    throw UserError("--size and --rectified are for the built-in scene, but images are given");
+  }
+  if (options.scene.seed != SceneConfig{}.seed) {
+    throw UserError("--seed is for the built-in scene, but images are given");
+  }
+  std::vector<ImagePair> pairs = options.input.empty() ? std::vector<ImagePair>{{options.left, options.right}}
+                                                       : find_image_pairs(options.input);
+  auto source = file_source(std::move(pairs), limits(config), options.frames.value_or(0),
+                            options.ground_truth, options.mask, notice);
+  const auto demand = [&](const char* key, std::uint32_t wanted, int found) {
+    if (wanted != 0 && static_cast<int>(wanted) != found) {
+      throw UserError(fmt::format("{} = {}, but {} has {} px; 0 takes it from the images", key, wanted,
+                                  source->name(), found));
+    }
+  };
+  demand("image.width", config.image.width, source->width());
+  demand("image.height", config.image.height, source->height());
+  return source;
+}
+
+// One run: what the machine asks for and hands over, frame by frame.
+class Run {
+ public:
+  Run(const RunOptions& options, CommandContext& context)
+      : options_(options),
+        context_(context),
+        configuration_(load_configuration(options.configuration, preset_folders())),
+        notice_([this](const std::string& line) { note(line); }),
+        source_(open_source(options, configuration_.machine, notice_)),
+        granularity_{static_cast<int>(configuration_.machine.image.width_granularity),
+                     static_cast<int>(configuration_.machine.image.height_granularity)},
+        size_(source_->width(), source_->height()),
+        padded_(padded_size(size_, granularity_)),
+        rectification_(choose_rectification(options, configuration_.machine.rectification.range, *source_,
+                                            padded_, notice_)),
+        total_frames_(std::max(
+            source_->frames(),
+            options.timing_frames.value_or(warm_up_frames(configuration_.machine) + kMeasuredFrames))) {
+    if (const std::string line = padding_notice(size_, granularity_); !line.empty()) note(line);
+    const DisparityRange range = configuration_.machine.matching.range();
+    writing_.colors = {range.offset, range.last()};
+    if (options.point_cloud) writing_.q = rectification_.q;
+  }
+
+  int execute() {
+    const Interruption interruption;
+    if (!options_.out.empty()) folder_ = std::make_unique<OutputFolder>(options_.out);
+    progress_ = std::make_unique<Progress>(
+        context_.err, context_.verbosity != Verbosity::kQuiet && standard_error_is_terminal(), "frames",
+        total_frames_);
+    MachineInput input;
+    input.width = padded_.width;
+    input.height = padded_.height;
+    input.map = &rectification_.map;
+    input.frames = total_frames_;
+    input.expose = [&](std::int64_t frame) {
+      if (interruption.requested()) stop();
+      return guarded(frame, [&] { return expose(frame); });
+    };
+    input.deliver = [&](const FrameResult& result) {
+      if (interruption.requested() && delivered_ + 1 < total_frames_) stop();
+      guarded(delivered_, [&] { return take(result), 0; });
+    };
+    const Machine machine("machine", configuration_.machine, input);
+    sc_core::sc_start();
+    progress_.reset();
+    if (failure_) std::rethrow_exception(failure_);
+    if (stopping_) return interrupted(interruption.signal());
+    if (!machine.finished()) return stuck(machine);
+    totals_.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
+    totals_.peak_megabytes = peak_memory_megabytes();
+    totals_.command = context_.command_line;
+    if (options_.left.empty() && options_.input.empty()) totals_.scene_seed = options_.scene.seed;
+    report(measure(machine, totals_, size_.width, size_.height));
+    return 0;
+  }
+
+ private:
+  // A fault inside the simulation ends it, when the frames before `frame` are at the host; the kernel must
+  // not see the exception, it would lose its line.
+  template <class Action>
+  auto guarded(std::int64_t frame, const Action& action) -> decltype(action()) {
+    if (stopping_) return {};
+    try {
+      if (frame < broken_) return action();
+    } catch (...) {
+      failure_ = std::current_exception();
+      broken_ = frame;
+      if (delivered_ >= broken_) stop();
+    }
+    return {};
+  }
+
+  void stop() {
+    if (!std::exchange(stopping_, true)) sc_core::sc_stop();
+  }
+
+  void note(const std::string& line) {
+    if (context_.verbosity != Verbosity::kQuiet) context_.err << "parallax: note: " << line << '\n';
+  }
+
+  StereoFrame expose(std::int64_t frame) {
+    if (frame >= source_->frames()) return {};
+    const StereoImages images = pad_images(source_->load(frame), granularity_);
+    const auto pixels = [](const cv::Mat& image) {
+      return std::make_shared<const std::vector<Gray>>(image.begin<Gray>(), image.end<Gray>());
+    };
+    return {pixels(images.left), pixels(images.right)};
+  }
+
+  void take(const FrameResult& result) {
+    progress_->advance();
+    if (!result.disparities.empty()) keep(result);
+    if (++delivered_ == broken_) stop();
+  }
+
+  void keep(const FrameResult& result) {
+    const std::vector<Disparity> disparities = crop_disparities(result.disparities, padded_.width, size_);
+    ++totals_.frames;
+    totals_.pixels += size_.area();
+    totals_.valid +=
+        std::count_if(disparities.begin(), disparities.end(), [](const Disparity& d) { return d.valid(); });
+    if (const auto truth = source_->truth(result.index)) {
+      totals_.has_truth = true;
+      totals_.evaluation += evaluate(disparities, size_.width, *truth);
+    }
+    if (!folder_) return;
+    cv::Mat left(padded_, CV_8UC1);
+    std::copy(result.left.begin(), result.left.end(), left.begin<Gray>());
+    const std::string prefix = source_->frames() == 1 ? "" : fmt::format("frame_{:04}/", result.index);
+    write_frame(*folder_, prefix, crop_image(left, size_), disparities, writing_);
+    // The frames of a sequence appear one by one, a single pair's results together with its timing.
+    if (source_->frames() > 1) folder_->publish();
+  }
+
+  void report(const MetricGroup& metrics) {
+    nlohmann::ordered_json tree = to_json(metrics);
+    tree["configuration"] = to_json(configuration_, false);
+    if (folder_) {
+      folder_->write("timing.json", tree.dump(2) + "\n");
+      folder_->publish();
+    }
+    if (options_.json) {
+      context_.out << tree.dump(2) << '\n';
+    } else if (context_.verbosity != Verbosity::kQuiet) {
+      context_.out << summary(metrics);
+      if (context_.verbosity == Verbosity::kVerbose) context_.out << stage_summary(metrics);
+      if (folder_) context_.out << fmt::format("results             {}\n", options_.out.string());
+    }
+  }
+
+  int interrupted(int signal) {
+    context_.err << fmt::format("parallax: interrupted after {} frame{}\n", totals_.frames,
+                                totals_.frames == 1 ? "" : "s");
+    return kSignalled + signal;
+  }
+
+  int stuck(const Machine& machine) {
+    const std::vector<Wait> cycle = machine.dataflow().deadlock();
+    if (!cycle.empty()) {
+      context_.err << "parallax: error: the machine is deadlocked; nobody in this circle can go on:\n"
+                   << describe(cycle);
+    } else {
+      context_.err << "parallax: error: the machine stopped before the host had all frames; these wait:\n"
+                   << describe(machine.dataflow().waits());
+    }
+    return kMachineStuck;
+  }
+
+  const std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
+  const RunOptions& options_;
+  CommandContext& context_;
+  const Configuration configuration_;
+  const NoticeSink notice_;
+  const std::unique_ptr<FrameSource> source_;
+  const Granularity granularity_;
+  const cv::Size size_;
+  const cv::Size padded_;
+  const RectificationChoice rectification_;
+  const std::int64_t total_frames_;
+  std::unique_ptr<OutputFolder> folder_;
+  FrameResultOptions writing_;
+  std::unique_ptr<Progress> progress_;
+  RunTotals totals_;
+  std::int64_t delivered_ = 0;
+  std::int64_t broken_ = std::numeric_limits<std::int64_t>::max();  // the frame at which the run fails
+  std::exception_ptr failure_;
+  bool stopping_ = false;
+};
+
+}  // namespace
+
+int run(const RunOptions& options, CommandContext& context) { return Run(options, context).execute(); }
+
+}  // namespace parallax

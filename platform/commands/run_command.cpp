@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "platform/commands/run_command.hpp"
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <string>
+
+#include "platform/commands/command_context.hpp"
+#include "platform/commands/common_options.hpp"
+#include "platform/commands/run.hpp"
+
+namespace parallax {
+namespace {
+
+// A script's unset variable must not turn into another run than the one that was meant.
+CLI::Validator not_empty() {
+  return {[](const std::string& name) { return std::string(name.empty() ? "the name is empty" : ""); }, ""};
+}
+
+}  // namespace
+
+void add_run_command(CLI::App& app, CommandContext& context) {
+  const auto options = std::make_shared<RunOptions>();
+  CLI::App& command = *app.add_subcommand(
+      "run",
+      "Stereo pairs through the whole machine: disparity maps and timing. Without input: the built-in scene");
+  command.option_defaults()->take_last();
+
+  command.add_option("--left", options->left, "Left image")
+      ->check(not_empty())
+      ->type_name("FILE")
+      ->group("Input");
+  command.add_option("--right", options->right, "Right image")
+      ->check(not_empty())
+      ->type_name("FILE")
+      ->group("Input");
+  command
+      .add_option("--input", options->input,
+                  "A sequence: a folder of pairs, or a list file with two paths a line")
+      ->check(not_empty())
+      ->type_name("PATH")
+      ->group("Input");
+  command
+      .add_option("--frames", options->frames,
+                  "At most so many frames of a sequence; frames of the built-in scene")
+      ->group("Input");
+  command.add_option("--size", options->size, "Size of the built-in scene, 640x480 if not given")
+      ->type_name("WxH")
+      ->group("Input");
+  command.option_defaults()->group("Input");
+  add_seed_option(command, options->scene.seed, "Seed of the built-in scene");
+  command.option_defaults()->group("Options");
+  command.add_flag("--rectified", options->rectified, "Built-in scene without lens distortion")
+      ->group("Input");
+  command
+      .add_option("--ground-truth", options->ground_truth,
+                  "True disparities of a pair: 16-bit PNG, disparity * 256, 0 = unknown")
+      ->check(not_empty())
+      ->type_name("FILE")
+      ->group("Input");
+  command.add_option("--mask", options->mask, "Pixels to score: 8-bit PNG, 255 = score")
+      ->check(not_empty())
+      ->type_name("FILE")
+      ->group("Input");
+
+  command
+      .add_option("--calibration", options->calibration,
+                  "The images are not rectified: OpenCV calibration file, or files that complete each other")
+      ->check(not_empty())
+      ->type_name("FILE")
+      ->take_all()
+      ->group("Rectification");
+  command
+      .add_option("--map", options->map,
+                  "The images are not rectified: compressed map of `parallax map encode`")
+      ->check(not_empty())
+      ->type_name("FILE")
+      ->group("Rectification");
+  command
+      .add_flag("--fit", options->fit, "Zoom and shift the rectified images until the offsets fit the window")
+      ->group("Rectification");
+
+  command.add_option("--out", options->out, "Folder for the results; without it only the summary is printed")
+      ->check(not_empty())
+      ->type_name("DIR")
+      ->group("Output");
+  command.add_flag("!--no-point-cloud", options->point_cloud, "Do not write points.ply")->group("Output");
+  command
+      .add_option(
+          "--timing-frames", options->timing_frames,
+          "Least number of frames to simulate; beyond the input, frames are timed without images. If not "
+          "given: so many that all buffers have been full, and three more")
+      ->group("Output");
+  add_json_option(command, options->json);
+  add_configuration_options(command, options->configuration);
+  command.callback(
+      [options, &context] { context.action = [options, &context] { return run(*options, context); }; });
+}
+
+}  // namespace parallax

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "platform/config/configuration.hpp"
+#include "platform/scene/scene_config.hpp"
+
+namespace parallax {
+
+/// What the user asked `parallax run` for.
+struct RunOptions {
+  ConfigurationRequest configuration;
+  // Input: a pair, a folder or list, or else the built-in scene.
+  std::string left;
+  std::string right;
+  std::string input;
+  std::string size;  ///< WxH of the built-in scene
+  SceneConfig scene;
+  bool rectified = false;                     ///< the built-in scene without distortion
+  std::optional<std::int64_t> frames;         ///< none: all of the input; one of the scene
+  std::optional<std::int64_t> timing_frames;  ///< none: the warm-up and three more
+  std::string ground_truth;
+  std::string mask;
+  // Rectification.
+  std::vector<std::string> calibration;
+  std::string map;
+  bool fit = false;
+  // Output.
+  std::filesystem::path out;
+  bool point_cloud = true;
+  bool json = false;
+};
+
+}  // namespace parallax

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "platform/config/camera_config.hpp"
+
+#include <fmt/format.h>
+
+#include "platform/config/schema.hpp"
+#include "tlm/error.hpp"
+
+namespace parallax {
+namespace {
+
+constexpr double kSlowestRate = 0.001;  // frames/s; below, the dates of a run leave 64 bit
+
+}  // namespace
+
+void CameraConfig::validate() const {
+  if (frame_rate != 0 && frame_rate < kSlowestRate) {
+    throw UserError(
+        fmt::format("camera.frame_rate = {}: must be 0 or at least {} frames/s", frame_rate, kSlowestRate));
+  }
+}
+
+void describe(Schema& schema, CameraConfig& config) {
+  schema.real("camera.frame_rate", config.frame_rate, {0.0, 100'000.0}, "frames/s",
+              "Frames that the camera delivers at most; it waits while no frame buffer is free. 0: triggered "
+              "as soon as "
+              "one is, which shows the highest rate of the machine.",
+              chosen("shows what the machine itself can do"));
+  schema.integer("camera.bytes_per_second", config.bytes_per_second, {1, 1'000'000'000'000}, "B/s",
+                 "Rate of the cable of each sensor; the slower of this and the pixel clock sets the pace.",
+                 inferred("USB 3.0: 5 Gbit/s less line code and protocol"));
+  schema.integer("camera.row_blanking", config.row_blanking, {0, 1'000'000}, "pixel clocks",
+                 "Pause of the sensor between two rows.", chosen("not published"));
+  schema.integer("camera.frame_blanking", config.frame_blanking, {0, 1'000'000'000}, "pixel clocks",
+                 "Pause of the sensor between two frames.", chosen("not published"));
+  schema.integer("camera.frame_buffers", config.frame_buffers, {1, 64}, "stereo frames",
+                 "Frames that the memory holds, from the camera until the pipeline has read them.",
+                 chosen("not published; one being written, one being read, one to spare"));
+}
+
+}  // namespace parallax

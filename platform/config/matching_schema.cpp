@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+// Keys of the stages from the raw images to the first disparities.
+#include "modules/census.hpp"
+#include "modules/consistency.hpp"
+#include "modules/matching.hpp"
+#include "modules/rectification.hpp"
+#include "modules/subpixel.hpp"
+#include "modules/uniqueness.hpp"
+#include "platform/config/schema.hpp"
+#include "platform/config/stage_schema.hpp"
+
+namespace parallax {
+namespace {
+
+constexpr const char* kDeviceSoftware = "parameters of the device's own software";
+
+}  // namespace
+
+void describe(Schema& schema, RectificationConfig& config) {
+  using Rounding = RectificationConfig::Rounding;
+  schema.integer(
+      "rectification.window", config.range.window, {1, 2047}, "px",
+      "Rows and columns that rectification can reach, odd; offsets of (window - 1) / 2 each way. It costs "
+      "this many rows of storage per image.",
+      stated("paper, section Rectification: 79 x 79"));
+  schema.integer("rectification.fraction_bits", config.range.fraction_bits, {0, 8}, "bit",
+                 "Fraction bits of an offset of the rectification map.",
+                 chosen("5 as in OpenCV's remap; the paper says subpixel accurate"));
+  schema.choice("rectification.rounding", config.rounding,
+                {{"nearest", Rounding::kNearest}, {"truncate", Rounding::kTruncate}},
+                "How the interpolated intensity is brought to 8 bits.", chosen("as in OpenCV's remap"));
+}
+
+void describe(Schema& schema, CensusConfig& config) {
+  const Provenance window = inferred("a device image has a masked border of 2 px: a window of 5 x 5");
+  schema.integer("census.window_width", config.window_width, {1, 63}, "px",
+                 "Width of the census window, odd. The window has at most 63 neighbours.", window);
+  schema.integer("census.window_height", config.window_height, {1, 63}, "px",
+                 "Height of the census window, odd. The window has at most 63 neighbours.", window);
+  schema.choice(
+      "census.bit_order", config.bit_order,
+      {{"msb_first", CensusBitOrder::kMsbFirst}, {"lsb_first", CensusBitOrder::kLsbFirst}},
+      "Place of the top left neighbour in the code; the others follow in raster order. It does not change "
+      "the disparities.",
+      chosen("not published"));
+  schema.choice("census.comparison", config.comparison,
+                {{"less", CensusComparison::kLess},
+                 {"less_equal", CensusComparison::kLessEqual},
+                 {"greater", CensusComparison::kGreater},
+                 {"greater_equal", CensusComparison::kGreaterEqual}},
+                "How a neighbour compares with the centre when its bit is 1.", chosen("not published"));
+  schema.choice(
+      "census.border", config.border,
+      {{"replicate", CensusBorder::kReplicate}, {"zero", CensusBorder::kZero}, {"mask", CensusBorder::kMask}},
+      "What the window sees outside the image: the nearest pixel, the value 0, or nothing (the whole code is "
+      "0).",
+      chosen("not published"));
+}
+
+void describe(Schema& schema, MatchingConfig& config) {
+  schema.integer("matching.parallelism", config.parallelism, {1, 256}, "disparities",
+                 "Disparities that one iteration compares (p).",
+                 stated("paper, section Stereo Matching: p = 32"));
+  schema.integer("matching.iterations", config.iterations, {1, 256}, "iterations",
+                 "Iterations per pixel (n_i); the range is iterations x parallelism disparities.",
+                 derived("paper, table 1: 128 disparities at p = 32"));
+  schema.integer("matching.disparity_offset", config.disparity_offset, {0, 255}, "px",
+                 "Smallest disparity (o_d); offset and range together are at most 256.",
+                 stated(kDeviceSoftware));
+  schema.integer(
+      "matching.cost_weight", config.cost_weight, {1, 4}, "units",
+      "Cost of one differing census bit, in the unit of the penalties matching.p1 and matching.p2.",
+      chosen("the penalties of the device are known, their unit is not"));
+  schema.integer("matching.p1", config.p1, {0, 255}, "units",
+                 "Penalty for a disparity change of one along a path; below matching.p2.",
+                 stated(kDeviceSoftware));
+  schema.integer("matching.p2", config.p2, {0, 255}, "units",
+                 "Penalty for a larger disparity change along a path.", stated(kDeviceSoftware));
+  schema.name_set(
+      "matching.paths", config.paths,
+      {{"w", kPathW},
+       {"nw", kPathNW},
+       {"n", kPathN},
+       {"ne", kPathNE},
+       {"e", kPathE},
+       {"sw", kPathSW},
+       {"s", kPathS},
+       {"se", kPathSE}},
+      "Paths whose costs are summed, each named for where the predecessor of a pixel lies. e holds a row of "
+      "costs; sw, s and se need a second pass over the image and memory traffic.",
+      inferred("the paths that need one pass over the image"));
+  schema.choice("matching.outside_cost", config.outside_cost,
+                {{"maximum", OutsideCost::kMaximum},
+                 {"replicate", OutsideCost::kReplicate},
+                 {"zero_code", OutsideCost::kZeroCode}},
+                "Cost of a right pixel left of the image: all bits differ, as the first pixel of the row, or "
+                "as a pixel "
+                "with code 0.",
+                chosen("not published"));
+  schema.choice(
+      "matching.path_start", config.path_start,
+      {{"cost", PathStart::kCost},
+       {"clamp", PathStart::kClamp},
+       {"carry", PathStart::kCarry},
+       {"delay_line", PathStart::kDelayLine}},
+      "Predecessor of a pixel whose path begins outside the image: none; for diagonal paths the pixel "
+      "straight "
+      "above or below; for path w the last pixel of the row above; or the pixel before in raster order, as "
+      "in a plain delay line.",
+      chosen("not published"));
+}
+
+void describe(Schema& schema, SubpixelConfig& config) {
+  schema.choice("subpixel.curve", config.curve,
+                {{"none", SubpixelCurve::kNone},
+                 {"parabola", SubpixelCurve::kParabola},
+                 {"equiangular", SubpixelCurve::kEquiangular}},
+                "Curve through the costs at the minimum and beside it; none gives whole disparities.",
+                chosen("the paper, section Subpixel Optimization, does not name the curve"));
+  schema.choice(
+      "subpixel.rounding", config.rounding,
+      {{"truncate", SubpixelRounding::kTruncate}, {"nearest", SubpixelRounding::kNearest}},
+      "How the distance from the whole disparity is brought to 1/16 px: toward zero, or to the nearest.",
+      chosen("not published"));
+  schema.choice("subpixel.winner", config.winner,
+                {{"lowest", TieRule::kLowest}, {"highest", TieRule::kHighest}},
+                "Which of several equally cheap disparities wins.", chosen("not published"));
+  schema.boolean("subpixel.mask_border", config.mask_border,
+                 "Whether pixels at the image border are made invalid.", stated(kDeviceSoftware));
+  const Provenance border = stated("an image of the device has a masked border of 2 px");
+  schema.integer("subpixel.border_width", config.border_width, {0, 31}, "px",
+                 "Masked columns on the left and right.", border);
+  schema.integer("subpixel.border_height", config.border_height, {0, 31}, "px",
+                 "Masked rows at top and bottom.", border);
+}
+
+void describe(Schema& schema, UniquenessConfig& config) {
+  schema.boolean("uniqueness.enabled", config.enabled, "Whether ambiguous matches are made invalid.",
+                 stated(kDeviceSoftware));
+  schema.integer("uniqueness.factor", config.factor, {256, 4096}, "1/256",
+                 "Uniqueness factor (q): the lowest cost times q must be below the next best one.",
+                 chosen("how the device's sensitivity, 65 of 256 by default, maps to q is not published; "
+                        "chosen on pairs with ground truth"));
+  schema.boolean("uniqueness.neighbours_are_rivals", config.neighbours_are_rivals,
+                 "Whether the two disparities beside the best one count as the next best.",
+                 chosen("they belong to the same minimum"));
+}
+
+void describe(Schema& schema, ConsistencyConfig& config) {
+  schema.boolean("consistency.enabled", config.enabled,
+                 "Whether matches that the right image's disparities do not confirm are made invalid.",
+                 stated(kDeviceSoftware));
+  schema.integer("consistency.threshold", config.threshold, {0, 15}, "px",
+                 "Largest difference between left and right disparity (t_c).",
+                 inferred("the device's default sensitivity 13 of 15, taken as 15 - t_c"));
+  schema.choice("consistency.right_winner", config.right_winner,
+                {{"lowest", TieRule::kLowest}, {"highest", TieRule::kHighest}},
+                "Which of several equally cheap disparities of a right pixel wins.", chosen("not published"));
+  schema.choice("consistency.outside_match", config.outside_match,
+                {{"keep", OutsideMatch::kKeep}, {"invalidate", OutsideMatch::kInvalidate}},
+                "What becomes of a match left of the right image, where nothing could confirm it.",
+                chosen("not published"));
+}
+
+}  // namespace parallax

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "platform/config/preset.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <map>
+#include <sstream>
+
+#include "platform/config/nearest_name.hpp"
+#include "platform/config/preset_file.hpp"
+#include "tlm/error.hpp"
+
+namespace parallax {
+namespace {
+
+namespace fs = std::filesystem;
+using Folders = std::vector<fs::path>;
+
+bool is_path(const std::string& name) {
+  const std::string suffix = ".toml";
+  const bool ends_so =
+      name.size() >= suffix.size() && name.compare(name.size() - suffix.size(), suffix.size(), suffix) == 0;
+  return ends_so || name.find('/') != std::string::npos;
+}
+
+std::string joined(const Folders& folders) {
+  std::string text;
+  for (const fs::path& folder : folders) text += (text.empty() ? "" : ", ") + folder.string();
+  return text.empty() ? "no folder" : text;
+}
+
+/// `before` opens the message: empty for the command line, "file:line: " for an `inherits`.
+fs::path find_preset(const std::string& name, const fs::path& relative_to, const Folders& folders,
+                     const std::string& before) {
+  std::error_code ignored;
+  if (is_path(name)) {
+    const fs::path file = relative_to.empty() ? fs::path(name) : (relative_to / name).lexically_normal();
+    if (fs::exists(file, ignored)) return file;
+    throw UserError(fmt::format("{}preset file {} does not exist", before, file.string()));
+  }
+  for (const fs::path& folder : folders) {
+    const fs::path file = folder / (name + ".toml");
+    if (fs::exists(file, ignored)) return file;
+  }
+  std::vector<std::string> names;
+  for (const PresetSummary& preset : list_presets(folders)) names.push_back(preset.name);
+  const std::string nearest = nearest_name(name, names);
+  throw UserError(fmt::format("{}no preset '{}' in {}{}{}", before, name, joined(folders),
+                              nearest.empty() ? "" : "; the nearest is ", nearest));
+}
+
+/// The inheriting file and those before it, to tell a cycle.
+void load(const fs::path& file, const Folders& folders, std::vector<fs::path>& chain, RawConfig& values) {
+  PresetFile preset = read_preset_file(file);
+  chain.push_back(file);
+  if (preset.inherits) {
+    // A family of presets in one folder finds its own members first.
+    Folders around{file.has_parent_path() ? file.parent_path() : fs::path(".")};
+    around.insert(around.end(), folders.begin(), folders.end());
+    const fs::path parent =
+        find_preset(*preset.inherits, file.parent_path(), around, preset.inherits_origin + ": ");
+    const auto same = [&](const fs::path& other) { return fs::equivalent(other, parent); };
+    if (std::any_of(chain.begin(), chain.end(), same)) {
+      std::string cycle;
+      for (const fs::path& link : chain) cycle += link.filename().string() + " -> ";
+      throw UserError(fmt::format("{}: inherits goes round in a circle: {}{}", preset.inherits_origin, cycle,
+                                  parent.filename().string()));
+    }
+    load(parent, folders, chain, values);
+  }
+  for (auto& [key, value] : preset.values) values[key] = std::move(value);
+}
+
+}  // namespace
+
+std::vector<fs::path> preset_folders() {
+  Folders folders;
+  if (const char* path = std::getenv("PARALLAX_PRESET_PATH")) {
+    std::istringstream list(path);
+    for (std::string folder; std::getline(list, folder, ':');) {
+      if (!folder.empty()) folders.emplace_back(folder);
+    }
+  }
+  std::error_code failed;
+  const fs::path program = fs::read_symlink("/proc/self/exe", failed);
+  if (!failed) {
+    folders.push_back(program.parent_path() / "presets");
+    folders.push_back((program.parent_path() / ".." / "share" / "parallax" / "presets").lexically_normal());
+  }
+  return folders;
+}
+
+RawConfig load_preset(const std::string& name, const std::vector<fs::path>& folders) {
+  RawConfig values;
+  std::vector<fs::path> chain;
+  load(find_preset(name, {}, folders, ""), folders, chain, values);
+  return values;
+}
+
+std::vector<PresetSummary> list_presets(const std::vector<fs::path>& folders) {
+  std::map<std::string, std::string> found;
+  for (const fs::path& folder : folders) {
+    std::error_code failed;
+    for (const auto& entry : fs::directory_iterator(folder, failed)) {
+      const fs::path& file = entry.path();
+      if (file.extension() != ".toml" || found.count(file.stem().string())) continue;
+      std::string description;
+      try {
+        description = read_preset_file(file).description;
+      } catch (const UserError& error) {
+        description = fmt::format("(not readable: {})", error.what());
+      }
+      found.emplace(file.stem().string(), description);
+    }
+  }
+  std::vector<PresetSummary> presets;
+  for (const auto& [name, description] : found) presets.push_back({name, description});
+  return presets;
+}
+
+}  // namespace parallax

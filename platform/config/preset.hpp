@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// Presets by name: where they are looked for, what there is, and what one says after inheritance.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "platform/config/config_value.hpp"
+
+namespace parallax {
+
+/// Folders that are searched for `<name>.toml`, first match wins: those of the environment variable
+/// PARALLAX_PRESET_PATH (separated by colons), `presets` beside the program, `../share/parallax/presets`.
+std::vector<std::filesystem::path> preset_folders();
+
+/// The values of a preset and of all that it inherits from. `name` is a path when it contains a slash or ends
+/// in
+/// ".toml". Throws UserError: not found (says where it looked), unreadable, malformed, a cycle of `inherits`.
+RawConfig load_preset(const std::string& name, const std::vector<std::filesystem::path>& folders);
+
+struct PresetSummary {
+  std::string name;
+  std::string description;
+};
+
+/// All presets in the folders, by name; one that is hidden by an earlier folder is left out.
+std::vector<PresetSummary> list_presets(const std::vector<std::filesystem::path>& folders);
+
+}  // namespace parallax

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "platform/input/frame_source.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "platform/scene/scene.hpp"
+#include "tlm/error.hpp"
+
+namespace parallax {
+namespace {
+
+Calibration calibration_of(const SceneCalibration& scene) {
+  Calibration calibration;
+  calibration.source = "the built-in scene";
+  calibration.model = scene.rectified ? LensModel::kRectified : LensModel::kPinhole;
+  calibration.size = {scene.width, scene.height};
+  const auto lens = [](const SceneLens& from) {
+    return Lens{from.camera_matrix, {from.distortion.val, from.distortion.val + 5}};
+  };
+  calibration.left = lens(scene.left);
+  calibration.right = lens(scene.right);
+  calibration.R1 = scene.left.rectifying_rotation;
+  calibration.R2 = scene.right.rectifying_rotation;
+  calibration.P1 = scene.p1;
+  calibration.P2 = scene.p2;
+  calibration.Q = scene.q;
+  calibration.unit = "m";
+  return calibration;
+}
+
+class SceneSource final : public FrameSource {
+ public:
+  SceneSource(const SceneConfig& config, std::int64_t frames)
+      : config_(config), scene_(config), frames_(frames) {}
+
+  std::int64_t frames() const override { return frames_; }
+  int width() const override { return config_.width; }
+  int height() const override { return config_.height; }
+  std::string name() const override { return "the built-in scene"; }
+  StereoImages load(std::int64_t frame) override { return scene_.render(static_cast<int>(frame)); }
+  std::optional<GroundTruth> truth(std::int64_t frame) override {
+    const SceneTruth scene = scene_.truth(static_cast<int>(frame));
+    GroundTruth truth;
+    truth.width = config_.width;
+    truth.height = config_.height;
+    truth.disparity.assign(scene.disparity.begin<std::uint16_t>(), scene.disparity.end<std::uint16_t>());
+    truth.mask.assign(scene.mask.begin<std::uint8_t>(), scene.mask.end<std::uint8_t>());
+    return truth;
+  }
+  std::optional<Calibration> calibration() const override { return calibration_of(scene_.calibration()); }
+
+ private:
+  SceneConfig config_;
+  Scene scene_;
+  std::int64_t frames_;
+};
+
+class FileSource final : public FrameSource {
+ public:
+  FileSource(std::vector<ImagePair> pairs, const ImageLimits& limits, std::int64_t limit,
+             std::string ground_truth, std::string mask, NoticeSink notice)
+      : input_(std::move(pairs), limits, std::move(notice)),
+        frames_(static_cast<std::int64_t>(input_.frames())),
+        ground_truth_(std::move(ground_truth)),
+        mask_(std::move(mask)) {
+    if (limit > 0) frames_ = std::min(frames_, limit);
+    if (!ground_truth_.empty() && frames_ > 1) {
+      throw UserError(fmt::format(
+          "--ground-truth is for one pair, but the input has {} frames; add --frames 1", frames_));
+    }
+    if (!ground_truth_.empty())
+      truth_ = read_ground_truth(ground_truth_, mask_, input_.width(), input_.height());
+  }
+
+  std::int64_t frames() const override { return frames_; }
+  int width() const override { return input_.width(); }
+  int height() const override { return input_.height(); }
+  std::string name() const override { return input_.paths(0).left.string(); }
+  StereoImages load(std::int64_t frame) override { return input_.load(static_cast<std::size_t>(frame)); }
+  std::optional<GroundTruth> truth(std::int64_t) override { return truth_; }
+  std::optional<Calibration> calibration() const override { return std::nullopt; }
+
+ private:
+  ImageInput input_;
+  std::int64_t frames_;
+  std::string ground_truth_;
+  std::string mask_;
+  std::optional<GroundTruth> truth_;
+};
+
+}  // namespace
+
+std::unique_ptr<FrameSource> scene_source(const SceneConfig& config, std::int64_t frames) {
+  return std::make_unique<SceneSource>(config, frames);
+}
+
+std::unique_ptr<FrameSource> file_source(std::vector<ImagePair> pairs, const ImageLimits& limits,
+                                         std::int64_t limit, const std::string& ground_truth,
+                                         const std::string& mask, NoticeSink notice) {
+  return std::make_unique<FileSource>(std::move(pairs), limits, limit, ground_truth, mask, std::move(notice));
+}
+
+}  // namespace parallax

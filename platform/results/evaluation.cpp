@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "platform/results/evaluation.hpp"
+
+#include <cstdlib>
+#include <fstream>
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
+
+#include "tlm/error.hpp"
+
+namespace parallax {
+
+namespace {
+
+constexpr int kStepsPerPixel = 256;  ///< of the ground truth
+constexpr int kTruthShift = 8 - kDisparityFractionBits;
+constexpr std::uint8_t kScored = 255;
+
+std::string size_text(int width, int height) { return std::to_string(width) + "x" + std::to_string(height); }
+
+cv::Mat read_image(const char* what, const std::string& path, int width, int height) {
+  cv::Mat image;
+  // OpenCV writes a warning of its own about a file that it cannot open.
+  if (std::ifstream(path).good()) image = cv::imread(path, cv::IMREAD_UNCHANGED);
+  if (image.empty()) throw UserError(path + ": cannot read the " + what + " (missing, or not an image)");
+  if (image.cols != width || image.rows != height) {
+    throw UserError(path + ": the " + what + " is " + size_text(image.cols, image.rows) +
+                    ", the images are " + size_text(width, height));
+  }
+  return image;
+}
+
+std::string format_text(const cv::Mat& image) {
+  return std::to_string(8 * image.elemSize1()) + " bit with " + std::to_string(image.channels()) +
+         " channel" + (image.channels() == 1 ? "" : "s");
+}
+
+template <class T>
+std::vector<T> pixels_of(const cv::Mat& image) {
+  return {image.begin<T>(), image.end<T>()};
+}
+
+bool is_scored(const GroundTruth& truth, std::size_t pixel) {
+  return truth.disparity[pixel] != 0 && (truth.mask.empty() || truth.mask[pixel] == kScored);
+}
+
+double share(std::int64_t part, std::int64_t whole) {
+  return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
+}
+
+}  // namespace
+
+GroundTruth read_ground_truth(const std::string& path, const std::string& mask_path, int width, int height) {
+  const cv::Mat truth = read_image("ground truth", path, width, height);
+  if (truth.type() != CV_16UC1) {
+    throw UserError(path + ": the ground truth is " + format_text(truth) +
+                    ", it must be 16 bit with 1 channel (disparity * 256, 0 = unknown)");
+  }
+  GroundTruth result{width, height, pixels_of<std::uint16_t>(truth), {}};
+  if (!mask_path.empty()) {
+    const cv::Mat mask = read_image("ground-truth mask", mask_path, width, height);
+    if (mask.type() != CV_8UC1) {
+      throw UserError(mask_path + ": the ground-truth mask is " + format_text(mask) +
+                      ", it must be 8 bit with 1 channel (255 = score)");
+    }
+    result.mask = pixels_of<std::uint8_t>(mask);
+  }
+  bool any = false;
+  for (std::size_t i = 0; i < result.disparity.size() && !any; ++i) any = is_scored(result, i);
+  if (!any) {
+    throw UserError(path + ": no pixel to score; every disparity is 0 (unknown)" +
+                    (mask_path.empty() ? "" : " or masked by " + mask_path));
+  }
+  return result;
+}
+
+Evaluation evaluate(const std::vector<Disparity>& disparity, int width, const GroundTruth& truth) {
+  if (width != truth.width || disparity.size() != truth.disparity.size()) {
+    const int height = width > 0 ? static_cast<int>(disparity.size()) / width : 0;
+    throw UserError("the ground truth is " + size_text(truth.width, truth.height) + ", the disparities are " +
+                    size_text(width, height));
+  }
+  Evaluation result;
+  result.pixels = static_cast<std::int64_t>(disparity.size());
+  for (std::size_t i = 0; i < disparity.size(); ++i) {
+    if (!is_scored(truth, i)) continue;
+    ++result.scored;
+    if (!disparity[i].valid()) continue;
+    ++result.valid;
+    const int error = std::abs((disparity[i].value << kTruthShift) - truth.disparity[i]);
+    result.absolute_error += error;
+    for (int limit = 1; limit <= Evaluation::kLimits; ++limit) {
+      result.bad[static_cast<std::size_t>(limit - 1)] += error > limit * kStepsPerPixel;
+    }
+  }
+  return result;
+}
+
+double Evaluation::coverage() const { return share(valid, scored); }
+
+double Evaluation::bad_share(int limit) const {
+  return share(bad.at(static_cast<std::size_t>(limit - 1)), valid);
+}
+
+double Evaluation::bad_share_all(int limit) const {
+  return share(bad.at(static_cast<std::size_t>(limit - 1)) + scored - valid, scored);
+}
+
+double Evaluation::mean_error() const { return share(absolute_error, valid) / kStepsPerPixel; }
+
+Evaluation& Evaluation::operator+=(const Evaluation& other) {
+  pixels += other.pixels;
+  scored += other.scored;
+  valid += other.valid;
+  for (std::size_t i = 0; i < bad.size(); ++i) bad[i] += other.bad[i];
+  absolute_error += other.absolute_error;
+  return *this;
+}
+
+std::vector<Quality> Evaluation::qualities() const {
+  std::vector<Quality> result = {
+      {"scored_pixels", "Pixels with a known true disparity that the mask selects.", "px",
+       static_cast<double>(scored)},
+      {"valid_pixels", "Scored pixels that have a disparity.", "px", static_cast<double>(valid)},
+      {"coverage", "Share of the scored pixels that have a disparity.", "%", 100 * coverage()},
+      {"mean_error", "Mean absolute error of the valid pixels.", "px", mean_error()},
+  };
+  for (int limit = 1; limit <= kLimits; ++limit) {
+    const std::string n = std::to_string(limit);
+    result.push_back({"bad_" + n, "Share of the valid pixels that are off by more than " + n + " px.", "%",
+                      100 * bad_share(limit)});
+    result.push_back(
+        {"bad_" + n + "_all",
+         "Share of the scored pixels that are off by more than " + n + " px or have no disparity.", "%",
+         100 * bad_share_all(limit)});
+  }
+  return result;
+}
+
+}  // namespace parallax

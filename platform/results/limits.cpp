@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "platform/results/limits.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+
+namespace parallax {
+namespace {
+
+// A part that is at work for less than this is not what the others wait for.
+constexpr double kSaturated = 0.95;
+// Parts that a slower one feeds run at its pace; those within this share of the largest load count as one.
+constexpr double kSamePace = 0.99;
+
+Cycles cycles_between(const ClockDomain& clock, const sc_core::sc_time& from, const sc_core::sc_time& to) {
+  return clock.cycle_at_or_after(to) - clock.cycle_at_or_after(from);
+}
+
+double ratio(Cycles part, Cycles whole) {
+  return static_cast<double>(part.count()) / static_cast<double>(std::max<std::int64_t>(1, whole.count()));
+}
+
+// Of all within kSamePace of the largest share, the first.
+const PartLoad& first_at_largest(const std::vector<PartLoad>& loads) {
+  double largest = 0;
+  for (const PartLoad& load : loads) largest = std::max(largest, load.share);
+  return *std::find_if(loads.begin(), loads.end(),
+                       [&](const PartLoad& l) { return l.share >= kSamePace * largest; });
+}
+
+}  // namespace
+
+std::int64_t warm_up_frames(const MachineConfig& config) {
+  return std::int64_t{config.camera.frame_buffers} + config.link.output_buffers;
+}
+
+SteadyWindow steady_window(const Machine& machine) {
+  const std::vector<Activity>& activities = machine.activities();
+  SteadyWindow window;
+  window.last = activities.size() - 1;
+  if (window.last == 0) {
+    window.text = "frame 1";
+    return window;
+  }
+  window.first = std::min(static_cast<std::size_t>(warm_up_frames(machine.config())), window.last - 1);
+  window.period = (activities[window.last].time - activities[window.first].time).to_seconds() /
+                  static_cast<double>(window.frames());
+  window.text = fmt::format("frames {} to {}", window.first + 2, window.last + 1);
+  return window;
+}
+
+std::vector<PartLoad> part_loads(const Machine& machine, const SteadyWindow& window) {
+  const Activity& first = machine.activities()[window.first];
+  const Activity& last = machine.activities()[window.last];
+  const auto frames = static_cast<double>(window.frames());
+  const MachineConfig& config = machine.config();
+  std::vector<PartLoad> loads;
+
+  Cycles bus;
+  for (std::size_t port = 0; port < last.ports.size(); ++port)
+    bus += last.ports[port].bus - first.ports[port].bus;
+  const ClockDomain& memory_clock = machine.memory().clock();
+  loads.push_back({"memory", "memory.bytes_per_cycle",
+                   ratio(bus, cycles_between(memory_clock, first.time, last.time)),
+                   memory_clock.seconds(bus) / frames});
+
+  const ClockDomain& camera_clock = machine.camera_clock();
+  loads.push_back({"camera", "clocks.camera_hz",
+                   ratio(last.camera - first.camera, cycles_between(camera_clock, first.time, last.time)),
+                   camera_clock.seconds(machine.sensor().frame_time())});
+  const double elapsed = (last.time - first.time).to_seconds();
+  if (config.camera.frame_rate > 0) {
+    // The cameras keep their rate but for the time in which they wait for a buffer.
+    const double waited = (last.buffer_wait - first.buffer_wait).to_seconds();
+    loads.push_back(
+        {"camera_frame_rate", "camera.frame_rate", 1.0 - waited / elapsed, 1.0 / config.camera.frame_rate});
+  }
+
+  const std::vector<std::uint32_t> places = machine.dma_places();
+  for (std::size_t port = 0; port < last.ports.size(); ++port) {
+    const double occupied =
+        (last.ports[port].occupied - first.ports[port].occupied).to_seconds() / places[port];
+    const std::string name = Machine::port_names()[port];
+    const std::string key = name.rfind("camera", 0) == 0 ? "camera" : name;
+    loads.push_back({"dma_" + name, "dma." + key + ".outstanding", occupied / elapsed, occupied / frames});
+  }
+
+  for (const StageInfo& info : machine.pipeline().stages()) {
+    const std::vector<FrameDates>& dates = info.stage->frames();
+    const Cycles frame(static_cast<std::int64_t>(info.stage->schedule().cycles()));
+    const Cycles whole = dates[window.last].first_firing - dates[window.first].first_firing;
+    loads.push_back({info.stage->basename(), "clocks.core_hz",
+                     ratio(frame * static_cast<std::int64_t>(window.frames()), whole),
+                     info.stage->clock().seconds(frame)});
+  }
+
+  if (config.link.enabled) {
+    const ClockDomain& link_clock = machine.link_clock();
+    const Cycles whole = cycles_between(link_clock, first.time, last.time);
+    const Cycles wire = last.wire - first.wire;
+    const Cycles host = last.host - first.host;
+    loads.push_back({"link", "link.line_rate", ratio(wire, whole), link_clock.seconds(wire) / frames});
+    loads.push_back({"host", "link.host_pixel_rate", ratio(host, whole), link_clock.seconds(host) / frames});
+  }
+  return loads;
+}
+
+LimitVerdict find_limit(const std::vector<PartLoad>& loads) {
+  LimitVerdict verdict;
+  verdict.busiest = first_at_largest(loads);
+  verdict.limited = verdict.busiest.share >= kSaturated;
+  std::vector<PartLoad> others;
+  std::copy_if(loads.begin(), loads.end(), std::back_inserter(others),
+               [&](const PartLoad& l) { return l.share < kSamePace * verdict.busiest.share; });
+  verdict.next = others.empty() ? verdict.busiest : first_at_largest(others);
+  verdict.otherwise = "streams.<name>.depth, camera.frame_buffers, link.output_buffers";
+  return verdict;
+}
+
+}  // namespace parallax

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "platform/results/output_folder.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "tlm/error.hpp"
+
+namespace parallax {
+
+namespace fs = std::filesystem;
+
+OutputFolder::OutputFolder(fs::path path) : path_(std::move(path)) {
+  if (path_.empty()) throw UserError("the name of the output folder is empty");
+  make(path_);
+  if (::faccessat(AT_FDCWD, path_.c_str(), W_OK | X_OK, AT_EACCESS) != 0) {
+    throw UserError(
+        fmt::format("cannot write to the output folder {}: {}", path_.string(), std::strerror(errno)));
+  }
+}
+
+OutputFolder::~OutputFolder() {
+  pending_.clear();
+  remove_made();
+}
+
+void OutputFolder::remove_made() {
+  std::error_code not_empty;
+  for (auto folder = made_.rbegin(); folder != made_.rend(); ++folder) fs::remove(*folder, not_empty);
+}
+
+void OutputFolder::make(const fs::path& folder) {
+  fs::path part;
+  for (const fs::path& name : folder) {
+    part /= name;
+    std::error_code failed;
+    if (fs::is_directory(part, failed)) continue;
+    if (fs::exists(fs::symlink_status(part, failed))) {
+      throw UserError(
+          fmt::format("cannot make the output folder {}: {} is a file", folder.string(), part.string()));
+    }
+    fs::create_directory(part, failed);
+    if (failed) {
+      remove_made();
+      throw UserError(fmt::format("cannot make the output folder {}: {}", folder.string(), failed.message()));
+    }
+    made_.push_back(part);
+  }
+}
+
+OutputFile& OutputFolder::open(const std::string& name) {
+  const fs::path target = path_ / name;
+  if (target.parent_path() != path_) make(target.parent_path());
+  pending_.push_back(std::make_unique<OutputFile>(target));
+  return *pending_.back();
+}
+
+void OutputFolder::write(const std::string& name, std::string_view content) {
+  OutputFile& file = open(name);
+  file.write(content);
+  file.close();  // a run over many files must not hold them all open
+}
+
+void OutputFolder::write(const std::string& name, const std::vector<unsigned char>& content) {
+  write(name, std::string_view(reinterpret_cast<const char*>(content.data()), content.size()));
+}
+
+void OutputFolder::publish() {
+  try {
+    for (const auto& file : pending_) file->close();
+    for (const auto& file : pending_) file->publish();
+  } catch (...) {
+    pending_.clear();
+    throw;
+  }
+  pending_.clear();
+}
+
+}  // namespace parallax

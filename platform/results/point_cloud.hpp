@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <opencv2/core/mat.hpp>
+#include <opencv2/core/matx.hpp>
+#include <vector>
+
+#include "platform/results/disparity_view.hpp"
+
+namespace parallax {
+
+/// points.ply: a binary little-endian PLY file with one vertex (float x y z, uchar red green blue) for each
+/// valid disparity, row by row. (X, Y, Z, W) = Q (x, y, d, 1), the point is (X, Y, Z) / W in the unit of the
+/// calibration's T, its grey that of the rectified left image (CV_8UC1, of the map's size). Points at
+/// infinity are left out.
+std::vector<unsigned char> encode_point_cloud_ply(const DisparityView& map, const cv::Mat& left,
+                                                  const cv::Matx44d& q);
+
+}  // namespace parallax

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "platform/results/progress.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace parallax {
+namespace {
+
+constexpr std::int64_t kBarColumns = 24;
+constexpr std::chrono::milliseconds kRedraw{100};
+constexpr const char* kWipe = "\r\033[K";  // to the first column, erase to the end of the line
+
+std::string duration_text(double seconds) {
+  const auto whole = static_cast<std::int64_t>(std::ceil(seconds));
+  if (whole < 60) return fmt::format("{} s", whole);
+  if (whole < 3600) return fmt::format("{} min {:02} s", whole / 60, whole % 60);
+  return fmt::format("{} h {:02} min", whole / 3600, whole / 60 % 60);
+}
+
+}  // namespace
+
+bool standard_error_is_terminal() { return ::isatty(STDERR_FILENO) == 1; }
+
+Progress::Progress(std::ostream& out, bool shown, std::string what, std::int64_t total)
+    : out_(out), shown_(shown), what_(std::move(what)), total_(total) {}
+
+Progress::~Progress() {
+  if (shown_) out_ << kWipe << std::flush;
+}
+
+void Progress::advance(std::int64_t count, Clock::time_point now) {
+  done_ += count;
+  if (!shown_ || (now - drawn_ < kRedraw && done_ < total_)) return;
+  drawn_ = now;
+  out_ << kWipe << line(what_, done_, total_, now - start_) << std::flush;
+}
+
+std::string Progress::line(const std::string& what, std::int64_t done, std::int64_t total,
+                           std::chrono::duration<double> elapsed) {
+  const std::int64_t filled =
+      total > 0 ? std::clamp<std::int64_t>(kBarColumns * done / total, 0, kBarColumns) : 0;
+  std::string text = fmt::format("[{:<{}}] {}/{} {}", std::string(static_cast<std::size_t>(filled), '='),
+                                 kBarColumns, done, total, what);
+  if (done > 0 && done < total) {
+    const double left = elapsed.count() / static_cast<double>(done) * static_cast<double>(total - done);
+    text += fmt::format(", {} left", duration_text(left));
+  }
+  return text;
+}
+
+}  // namespace parallax

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "platform/results/run_metrics.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "platform/results/limits.hpp"
+#include "platform/version.hpp"
+
+namespace parallax {
+namespace {
+
+double seconds(const sc_core::sc_time& time) { return time.to_seconds(); }
+
+void add_performance(MetricGroup& root, const Machine& machine, const SteadyWindow& window) {
+  const double pixels = static_cast<double>(machine.input().width) * machine.input().height;
+  const double fps = window.period > 0 ? 1.0 / window.period : 0;
+  const int range = machine.config().matching.range().count;
+  MetricGroup& group = root.group("performance");
+  group.add({"frame_rate", fps, "frames/s",
+             "Steady-state rate at which the host receives frames; 0 for a single frame.", window.text});
+  group.add({"disparities_per_second", fps * pixels, "1/s", "Frame rate times pixels of the processed image.",
+             window.text});
+  group.add({"evaluations_per_second", fps * pixels * range, "1/s",
+             "Disparity evaluations: frame rate times pixels times disparity range.", window.text});
+}
+
+void add_latency(MetricGroup& root, const Machine& machine, const SteadyWindow& window) {
+  const std::vector<FrameTimes>& times = machine.times();
+  const auto add = [&](MetricGroup& group, const char* name, const char* description, auto from, auto to) {
+    const auto of = [&](const FrameTimes& t) { return seconds(t.*to - t.*from) * 1e3; };
+    group.add({std::string(name) + "_first_frame", of(times.front()), "ms", description, "frame 1"});
+    double sum = 0, largest = 0;
+    for (std::size_t i = window.first; i <= window.last; ++i) {
+      sum += of(times[i]);
+      largest = std::max(largest, of(times[i]));
+    }
+    group.add({std::string(name) + "_mean", sum / static_cast<double>(window.last - window.first + 1), "ms",
+               description, window.text});
+    group.add({std::string(name) + "_largest", largest, "ms", description, window.text});
+  };
+  MetricGroup& group = root.group("latency");
+  add(group, "first_pixel",
+      "From the frame complete in memory to its first disparity out of the last filter.",
+      &FrameTimes::in_memory, &FrameTimes::first_disparity);
+  add(group, "last_pixel", "From the frame complete in memory to its last disparity out of the last filter.",
+      &FrameTimes::in_memory, &FrameTimes::last_disparity);
+  add(group, "exposure_to_host", "From the end of exposure to the frame's last bit at the host.",
+      &FrameTimes::exposed, &FrameTimes::at_host);
+}
+
+void add_limit(MetricGroup& root, const Machine& machine, const SteadyWindow& window) {
+  if (window.frames() == 0) return;
+  const std::vector<PartLoad> all = part_loads(machine, window);
+  const LimitVerdict verdict = find_limit(all);
+  MetricGroup& group = root.group("limit");
+  group.add(
+      {"part", verdict.limited ? verdict.busiest.part : "none", "",
+       "The part that is at work all the time; of several, the first that the data meets. none: no part is.",
+       window.text});
+  group.add({"key", verdict.limited ? verdict.busiest.key : verdict.otherwise, "",
+             "The configuration keys that move this limit.", window.text});
+  group.add({"utilisation", 100.0 * verdict.busiest.share, "%",
+             "Share of the time in which the busiest part is at work.", window.text});
+  const PartLoad& next = verdict.limited ? verdict.next : verdict.busiest;
+  group.add({"next_part", next.part, "", "The part that would limit if this one did not.", window.text});
+  group.add({"next_frame_rate", 1.0 / next.busy, "frames/s", "The rate at which it would.", window.text});
+  MetricGroup& parts = group.group("utilisation_by_part");
+  for (const PartLoad& load : all) {
+    parts.add(
+        {load.part, 100.0 * load.share, "%", "Share of the time in which the part is at work.", window.text});
+  }
+}
+
+void add_memory(MetricGroup& root, const Machine& machine, const SteadyWindow& window) {
+  MetricGroup& memory = root.group("memory");
+  const Memory& model = machine.memory();
+  const std::string all = "the whole run";
+  const Activity& first = machine.activities()[window.first];
+  const Activity& last = machine.activities()[window.last];
+  const double elapsed = seconds(last.time - first.time);
+  const auto cycles = static_cast<double>(model.clock().cycle_at_or_after(last.time).count() -
+                                          model.clock().cycle_at_or_after(first.time).count());
+  double total = 0, total_share = 0;
+  for (std::size_t id = 0; id < model.ports(); ++id) {
+    const MemoryPortStatistics& port = model.statistics(id);
+    MetricGroup& group = memory.group(Machine::port_names()[id]);
+    const auto bytes = static_cast<double>(last.ports[id].bytes - first.ports[id].bytes);
+    const auto bus = static_cast<double>((last.ports[id].bus - first.ports[id].bus).count());
+    const double rate = window.frames() == 0 ? 0 : bytes / elapsed;
+    const double share = window.frames() == 0 ? 0 : bus / cycles;
+    total += rate;
+    total_share += share;
+    group.add({"bytes_per_frame", window.frames() == 0 ? 0 : bytes / static_cast<double>(window.frames()),
+               "B", "Bytes through the port, a frame.", window.text});
+    group.add({"bandwidth", rate / 1e6, "MB/s", "Bytes through the port by time.", window.text});
+    group.add(
+        {"share", 100.0 * share, "%", "Time in which the memory's bus was taken for the port.", window.text});
+    const double requests = std::max(1.0, static_cast<double>(port.requests));
+    group.add({"latency_mean", seconds(port.latency_sum) / requests * 1e9, "ns",
+               "From request to answer of a burst.", all});
+    group.add({"latency_largest", seconds(port.latency_largest) * 1e9, "ns",
+               "From request to answer of a burst.", all});
+  }
+  const EncodedMap& map = *machine.input().map;
+  memory.group("map").add({"bytes_per_pixel_and_image", map.bytes_per_pixel(), "B",
+                           "Compressed size of the rectification map by pixels of both images.", ""});
+  memory.add({"bandwidth", total / 1e6, "MB/s", "Of all ports together.", window.text});
+  memory.add({"usable_bandwidth", model.usable_bandwidth() / 1e6, "MB/s", "Peak times efficiency.", ""});
+  memory.add({"share", 100.0 * total_share, "%", "Time in which the memory's bus was taken.", window.text});
+}
+
+double share_of(const std::vector<PartLoad>& loads, const std::string& part) {
+  const auto found =
+      std::find_if(loads.begin(), loads.end(), [&](const PartLoad& l) { return l.part == part; });
+  return found == loads.end() ? 0 : found->share;
+}
+
+void add_pipeline(MetricGroup& root, const Machine& machine, const SteadyWindow& window) {
+  const std::string all = "the whole run";
+  const std::vector<PartLoad> loads =
+      window.frames() == 0 ? std::vector<PartLoad>{} : part_loads(machine, window);
+  MetricGroup& stages = root.group("stages");
+  for (const StageInfo& info : machine.pipeline().stages()) {
+    const StageStatistics& s = info.stage->statistics();
+    MetricGroup& group = stages.group(info.stage->basename());
+    const double cycles = static_cast<double>(info.stage->schedule().cycles());
+    group.add({"cycles_per_frame", cycles, "cycles",
+               "Cycles of a frame without any wait, by the declared intervals.", ""});
+    group.add(
+        {"utilisation", 100.0 * share_of(loads, info.stage->basename()), "%", "Of the time.", window.text});
+    group.add({"busy", s.busy.count(), "cycles", "At work with a token on some port.", all});
+    group.add({"idle", s.idle.count(), "cycles", "Declared row and frame overhead.", all});
+    group.add({"starved", s.starved.count(), "cycles", "Held back by an empty input.", all});
+    group.add({"blocked", s.blocked.count(), "cycles", "Held back by a full output.", all});
+    group.add({"storage", info.storage.count(), "bit", "Line buffers and the like, without FIFOs.", ""});
+  }
+  MetricGroup& streams = root.group("streams");
+  for (const StreamBase* stream : machine.dataflow().streams()) {
+    const StreamStatistics& s = stream->statistics();
+    MetricGroup& group = streams.group(stream->basename());
+    group.add({"depth", std::int64_t{stream->depth()}, "tokens", "Places of the FIFO.", ""});
+    group.add({"width", stream->width().count(), "bit", "Of a token.", ""});
+    group.add({"tokens", static_cast<std::int64_t>(s.written), "tokens", "Written.", all});
+    group.add({"high_water", static_cast<std::int64_t>(s.high_water), "tokens", "Largest number held.", all});
+    group.add({"blocked_on_full", s.blocked_on_full.count(), "cycles", "Writer's cycles lost to a full FIFO.",
+               all});
+    group.add({"starved_on_empty", s.starved_on_empty.count(), "cycles",
+               "Reader's cycles lost to an empty FIFO.", all});
+  }
+}
+
+}  // namespace
+
+MetricGroup measure(const Machine& machine, const RunTotals& totals, int image_width, int image_height) {
+  const SteadyWindow window = steady_window(machine);
+  const std::string with_images = fmt::format("{} frames with images", totals.frames);
+  MetricGroup root;
+
+  MetricGroup& run = root.group("run");
+  run.add({"version", std::string(version()), "", "Of the model.", ""});
+  run.add({"revision", std::string(revision()), "", "Git revision that the model was built from.", ""});
+  run.add({"command", totals.command, "", "Makes this run again, from the same folder.", ""});
+  if (totals.scene_seed) {
+    run.add({"seed", fmt::format("{}", *totals.scene_seed), "", "Of the built-in scene.", ""});
+  }
+  run.add({"wall_time", totals.wall_seconds, "s", "Time that the run took on this computer.", ""});
+  run.add({"simulated_time", seconds(machine.activities().back().time), "s", "Time of the modelled machine.",
+           ""});
+  run.add({"speed", seconds(machine.activities().back().time) / std::max(totals.wall_seconds, 1e-9), "s/s",
+           "Simulated time per wall-clock time.", ""});
+  run.add({"peak_memory", totals.peak_megabytes, "MB", "Largest resident size of the program.", ""});
+
+  MetricGroup& input = root.group("input");
+  input.add({"width", std::int64_t{image_width}, "px", "Of the images as given.", ""});
+  input.add({"height", std::int64_t{image_height}, "px", "Of the images as given.", ""});
+  input.add({"processed_width", std::int64_t{machine.input().width}, "px", "Padded to the granularity.", ""});
+  input.add(
+      {"processed_height", std::int64_t{machine.input().height}, "px", "Padded to the granularity.", ""});
+  const DisparityRange range = machine.config().matching.range();
+  input.add({"disparity_range", std::int64_t{range.count}, "px", "Number of disparities searched.", ""});
+  input.add({"disparity_offset", std::int64_t{range.offset}, "px", "Smallest disparity searched.", ""});
+  input.add({"frames", machine.input().frames, "frames", "Simulated in time.", ""});
+  input.add({"frames_with_images", totals.frames, "frames", "Of these, with their images computed.", ""});
+
+  MetricGroup& camera = root.group("camera");
+  camera.add(
+      {"late_bursts", static_cast<std::int64_t>(machine.sensor().late_bursts()), "bursts",
+       "Bursts of the left sensor that found its FIFO full: the memory did not keep up with the read-out.",
+       "the whole run"});
+  add_performance(root, machine, window);
+  add_latency(root, machine, window);
+  add_limit(root, machine, window);
+  add_memory(root, machine, window);
+  add_pipeline(root, machine, window);
+
+  MetricGroup& quality = root.group("quality");
+  if (totals.pixels > 0) {
+    quality.add({"valid_share",
+                 100.0 * static_cast<double>(totals.valid) / static_cast<double>(totals.pixels), "%",
+                 "Pixels of the image that have a disparity.", with_images});
+  }
+  if (totals.has_truth) {
+    for (const Quality& q : totals.evaluation.qualities()) {
+      quality.add({q.name, q.value, q.unit, q.description, with_images});
+    }
+  }
+  return root;
+}
+
+}  // namespace parallax

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "platform/machine.hpp"
+#include "platform/results/evaluation.hpp"
+#include "traces/metrics.hpp"
+
+namespace parallax {
+
+/// What was added up over the frames of a run.
+struct RunTotals {
+  std::int64_t frames = 0;  ///< with images
+  std::int64_t pixels = 0;  ///< of the images as given
+  std::int64_t valid = 0;   ///< pixels with a disparity
+  bool has_truth = false;
+  Evaluation evaluation;                    ///< summed over the frames with ground truth
+  std::string command;                      ///< that makes the run again
+  std::optional<std::uint64_t> scene_seed;  ///< of the built-in scene, when it was the input
+  double wall_seconds = 0;
+  double peak_megabytes = 0;
+};
+
+/// Everything that `timing.json` and the summary say of a run: "run", "input", "performance", "latency",
+/// "limit", "memory", "stages", "streams", "quality".
+MetricGroup measure(const Machine& machine, const RunTotals& totals, int image_width, int image_height);
+
+/// The summary that a person reads, from that tree.
+std::string summary(const MetricGroup& metrics);
+
+/// A line for each stage of the pipeline: where its cycles went.
+std::string stage_summary(const MetricGroup& metrics);
+
+}  // namespace parallax

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include "platform/machine.hpp"
+#include "platform/results/run_metrics.hpp"
+
+namespace parallax {
+namespace {
+
+double number(const MetricGroup& metrics, const std::string& path) {
+  const auto& value = metrics.at(path).value;
+  if (const auto* whole = std::get_if<std::int64_t>(&value)) return static_cast<double>(*whole);
+  return std::get<double>(value);
+}
+
+std::string word(const MetricGroup& metrics, const std::string& path) {
+  return std::get<std::string>(metrics.at(path).value);
+}
+
+std::string memory_lines(const MetricGroup& m) {
+  std::string text;
+  for (const char* port : Machine::port_names()) {
+    const std::string path = std::string("memory/") + port + "/";
+    const std::string name = std::string(port) == "map" ? "rectification map" : port;
+    text += fmt::format(
+        "  {:<18}{:>9.1f} MB/s {:>6.2f} %   {:>9.0f} B a frame, latency {:>4.0f} ns mean, {:>5.0f} largest\n",
+        name, number(m, path + "bandwidth"), number(m, path + "share"), number(m, path + "bytes_per_frame"),
+        number(m, path + "latency_mean"), number(m, path + "latency_largest"));
+  }
+  return text;
+}
+
+std::string limit_line(const MetricGroup& m) {
+  if (number(m, "performance/frame_rate") == 0) return "";  // one frame has no steady state
+  if (word(m, "limit/part") == "none") {
+    return fmt::format(
+        "limit               no part is at work all the time; the busiest, {}, is at {:.1f} %; look at {}, "
+        "and at the look-ahead that each frame fills anew\n",
+        word(m, "limit/next_part"), number(m, "limit/utilisation"), word(m, "limit/key"));
+  }
+  return fmt::format("limit               {} at {:.1f} % of the time ({}); next {} at {:.1f} fps\n",
+                     word(m, "limit/part"), number(m, "limit/utilisation"), word(m, "limit/key"),
+                     word(m, "limit/next_part"), number(m, "limit/next_frame_rate"));
+}
+
+std::string quality_lines(const MetricGroup& m) {
+  std::string text;
+  for (const MetricGroup& group : m.groups) {
+    if (group.name != "quality" || group.metrics.empty()) continue;
+    text += fmt::format("valid pixels        {:.1f} % of the image\n", number(m, "quality/valid_share"));
+    if (group.metrics.size() == 1) continue;
+    if (number(m, "quality/scored_pixels") == 0) {
+      text += "ground truth        no pixel to score\n";
+      continue;
+    }
+    text += fmt::format(
+        "ground truth        coverage {:.1f} %, bad-1 {:.2f} %, bad-2 {:.2f} %, bad-3 {:.2f} %, mean error "
+        "{:.3f} px\n",
+        number(m, "quality/coverage"), number(m, "quality/bad_1"), number(m, "quality/bad_2"),
+        number(m, "quality/bad_3"), number(m, "quality/mean_error"));
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string summary(const MetricGroup& m) {
+  std::string text;
+  const auto count = [&m](const char* path) { return static_cast<std::int64_t>(number(m, path)); };
+  const std::int64_t offset = count("input/disparity_offset");
+  text += fmt::format("image               {} x {} px", count("input/width"), count("input/height"));
+  if (count("input/width") != count("input/processed_width") ||
+      count("input/height") != count("input/processed_height")) {
+    text += fmt::format(", processed as {} x {}", count("input/processed_width"),
+                        count("input/processed_height"));
+  }
+  text +=
+      fmt::format("\ndisparity range     {} to {} px\n", offset, offset + count("input/disparity_range") - 1);
+  const std::string window = m.at("performance/frame_rate").window;
+  if (const double fps = number(m, "performance/frame_rate"); fps > 0) {
+    text += fmt::format("frame rate          {:.2f} fps steady state ({})\n", fps, window);
+    text += fmt::format("evaluations         {:.3f} billion a second, {:.2f} million disparities a second\n",
+                        number(m, "performance/evaluations_per_second") / 1e9,
+                        number(m, "performance/disparities_per_second") / 1e6);
+  }
+  text += fmt::format(
+      "latency             {:.3f} ms to the first pixel, {:.3f} ms to the last, from frame in memory (first "
+      "frame)\n",
+      number(m, "latency/first_pixel_first_frame"), number(m, "latency/last_pixel_first_frame"));
+  text += fmt::format(
+      "                    {:.3f} ms and {:.3f} ms with frames before it under way (mean of {})\n",
+      number(m, "latency/first_pixel_mean"), number(m, "latency/last_pixel_mean"), window);
+  text += fmt::format("                    {:.3f} ms from exposure to the host, first frame {:.3f} ms\n",
+                      number(m, "latency/exposure_to_host_mean"),
+                      number(m, "latency/exposure_to_host_first_frame"));
+  text += limit_line(m);
+  text += fmt::format("memory              {:.1f} of {:.0f} MB/s usable, {:.1f} %\n",
+                      number(m, "memory/bandwidth"), number(m, "memory/usable_bandwidth"),
+                      number(m, "memory/share"));
+  text += memory_lines(m);
+  text += fmt::format("                    the map takes {:.3f} B per pixel and image\n",
+                      number(m, "memory/map/bytes_per_pixel_and_image"));
+  text += quality_lines(m);
+  return text;
+}
+
+std::string stage_summary(const MetricGroup& m) {
+  std::string text;
+  for (const MetricGroup& group : m.groups) {
+    if (group.name != "stages") continue;
+    for (const MetricGroup& stage : group.groups) {
+      text += fmt::format(
+          "stage {:<18}{:>6.1f} % at work; {:.0f} cycles busy, {:.0f} idle, {:.0f} starved, {:.0f} blocked\n",
+          stage.name, number(stage, "utilisation"), number(stage, "busy"), number(stage, "idle"),
+          number(stage, "starved"), number(stage, "blocked"));
+    }
+  }
+  return text;
+}
+
+}  // namespace parallax
