@@ -46,7 +46,7 @@ void expect_shown(const Command& command, const std::string& output) {
 }
 
 TEST(Readme, EveryCommandRunsAndPrintsWhatIsShown) {
-#ifdef __SANITIZE_ADDRESS__
+#ifdef PARALLAX_SANITIZED
   GTEST_SKIP() << "minutes with sanitizers, and nothing that other tests do not run";
 #endif
   const TemporaryFolder folder;

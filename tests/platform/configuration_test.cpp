@@ -73,7 +73,7 @@ TEST(ShippedPresets, EveryValueCarriesTagAndSource) {
 
 TEST(Configuration, HasThePublishedMachineByDefault) {
   const MachineConfig machine = load({}).machine;
-  EXPECT_EQ(machine.clocks.core_hz, 172'100'000);
+  EXPECT_EQ(machine.clocks.core_hz, 175'000'000);
   EXPECT_EQ(machine.matching.range().count, 128);
   EXPECT_EQ(machine.matching.p2, 42);
   EXPECT_EQ(machine.link.host_pixel_rate, 30'800'000);
@@ -83,14 +83,14 @@ TEST(Configuration, HasThePublishedMachineByDefault) {
 TEST(Configuration, AssignmentsApplyInOrder) {
   const MachineConfig machine =
       load({"matching.p1=10", "matching.p2=90", "matching.p1=20", "clocks.core_hz=150e6",
-            "memory.arbitration=fixed_priority", "streams.costs.depth=99", "dma.map.burst_bytes=256",
+            "memory.arbitration=fixed_priority", "streams.unique.depth=99", "dma.map.burst_bytes=256",
             "gap_interpolation.enabled=false", "census.latency=5"})
           .machine;
   EXPECT_EQ(machine.matching.p1, 20);
   EXPECT_EQ(machine.matching.p2, 90);
   EXPECT_EQ(machine.clocks.core_hz, 150'000'000);
   EXPECT_EQ(machine.memory.arbitration, Arbitration::kFixedPriority);
-  EXPECT_EQ(machine.streams.resolve("costs", 5000), 99U);
+  EXPECT_EQ(machine.streams.resolve("unique", 5000), 99U);
   EXPECT_EQ(machine.dma.map.burst_bytes, 256U);
   EXPECT_FALSE(machine.gap_interpolation.enabled);
   EXPECT_EQ(machine.timing.census.latency, 5U);
@@ -135,9 +135,9 @@ TEST(Configuration, ChecksWhatMustFitTogether) {
   starts({"census.window_width=4"}, "census.window_width = 4");
   starts({"census.window_width=9", "census.window_height=9"}, "census.window_width x census.window_height");
   starts({"rectification.window=80"}, "rectification.window: 80");
-  starts({"texture.window=4"}, "texture.window: 4");
-  starts({"speckle.window=4"}, "speckle.window: 4");
-  starts({"noise_reduction.window=4"}, "noise_reduction.window: 4");
+  starts({"texture.window=4"}, "texture.window = 4");
+  starts({"speckle.window=4"}, "speckle.window = 4");
+  starts({"noise_reduction.window=4"}, "noise_reduction.window = 4");
 }
 
 TEST(Configuration, TakesTheDisparityRange) {

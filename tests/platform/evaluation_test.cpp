@@ -49,6 +49,7 @@ TEST_F(EvaluationFiles, ReadsGroundTruthAndMask) {
   truth.at<std::uint16_t>(1, 2) = 40000;
   cv::Mat mask(3, 4, CV_8UC1, cv::Scalar(128));
   mask.at<std::uint8_t>(2, 3) = 255;
+  mask.at<std::uint8_t>(1, 2) = 255;
   const GroundTruth read = read_ground_truth(write("gt.png", truth), write("mask.png", mask), 4, 3);
   EXPECT_EQ(read.width, 4);
   EXPECT_EQ(read.height, 3);

@@ -319,6 +319,12 @@ TEST(ImagePairs, FolderErrors) {
             ": the left image left/2.png has no partner right/2.png");
   EXPECT_EQ(error({"left/1.png", "right/1.png", "right/2.png"}),
             ": the right image right/2.png has no partner left/2.png");
+  const TemporaryFolder links;
+  std::filesystem::create_symlink("circle", links.path() / "circle");
+  EXPECT_NE(error_line<UserError>([&] {
+              find_image_pairs(links.path() / "circle");
+            }).find("does not exist; expected a folder or a list of image pairs"),
+            std::string::npos);
   EXPECT_EQ(error_line<UserError>([] { find_image_pairs("/no/such/place"); }),
             "/no/such/place does not exist; expected a folder or a list of image pairs");
 }

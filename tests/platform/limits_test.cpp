@@ -17,6 +17,7 @@ class Limits : public ::testing::Test {
     const test::Outcome outcome = program_("run --json --disparities 32 " + arguments);
     EXPECT_EQ(outcome.code, 0) << outcome.err;
     const nlohmann::json tree = nlohmann::json::parse(outcome.out);
+    if (!tree.contains("limit")) return tree;
     for (const auto& [part, metric] : tree["limit"]["utilisation_by_part"].items()) {
       EXPECT_GE(metric["value"].get<double>(), 0.0) << part << ' ' << arguments;
       EXPECT_LE(metric["value"].get<double>(), 100.0) << part << ' ' << arguments;

@@ -47,7 +47,7 @@ std::string results(const MachineConfig& config) {
     const Machine machine("machine", config, input);
     sc_core::sc_start();
     if (!machine.finished()) return "stuck:\n" + describe(machine.dataflow().waits());
-    out << "\n" << machine.times().back().at_host;
+    out << "\n" << machine.activities().back().time;
     return out.str();
   });
 }
