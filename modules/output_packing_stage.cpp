@@ -42,7 +42,7 @@ OutputPackingStage::OutputPackingStage(const sc_core::sc_module_name& name, Byte
       burst_(burst.count() * 8),
       rows_(static_cast<std::size_t>(context.width), static_cast<std::size_t>(context.width),
             [this, width = context.width](const Gray* left, const Disparity* disparities) {
-              if (tap_) tap_(left, disparities);
+              if (tap_) tap_(disparities);
               kernel_.push(left, disparities, [this, width](const std::uint8_t* row) {
                 out_bursts.send_row(row, OutputPacking::row_bytes(width));
               });

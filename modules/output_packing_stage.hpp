@@ -24,12 +24,12 @@ class OutputPackingStage final : public Stage {
   Bits storage() const { return Bits(kernel_.storage_bits()) + burst_; }
   /// Told of each row of disparities with the causes that the packed bytes do not carry; a view for the
   /// model's user, not a part of the machine.
-  void tap(std::function<void(const Gray* left, const Disparity* row)> tap) { tap_ = std::move(tap); }
+  void tap(std::function<void(const Disparity* row)> tap) { tap_ = std::move(tap); }
 
  private:
   OutputPacking kernel_;
   Bits burst_;
-  std::function<void(const Gray*, const Disparity*)> tap_;
+  std::function<void(const Disparity*)> tap_;
   RowJoin<Gray, Disparity> rows_;
 };
 

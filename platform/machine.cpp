@@ -94,7 +94,7 @@ Machine::Machine(const sc_core::sc_module_name& name, const MachineConfig& confi
   link_.in_bursts(link_bursts_);
 
   for (BusMaster* master : masters()) master->socket.bind(memory_.socket);
-  pipeline_.output().tap([this](const Gray* left, const Disparity* row) { take_row(left, row); });
+  pipeline_.output().tap([this](const Disparity* row) { take_row(row); });
 
   SC_HAS_PROCESS(Machine);
   SC_THREAD(expose_frames);
@@ -217,7 +217,7 @@ void Machine::results_in_memory(std::int64_t frame) {
   deliver(frame, bytes);
 }
 
-void Machine::take_row(const Gray*, const Disparity* row) {
+void Machine::take_row(const Disparity* row) {
   labelled_rows_.insert(labelled_rows_.end(), row, row + input_.width);
   const auto pixels = static_cast<std::size_t>(input_.width) * static_cast<std::size_t>(input_.height);
   if (labelled_rows_.size() == pixels) {

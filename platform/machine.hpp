@@ -68,7 +68,7 @@ class Machine final : public sc_core::sc_module {
   void frame_in_memory(std::int64_t frame);
   void start_outputs();
   void results_in_memory(std::int64_t frame);
-  void take_row(const Gray* left, const Disparity* row);
+  void take_row(const Disparity* row);
   void deliver(std::int64_t frame, const std::vector<std::uint8_t>& bytes);
   void wait_for_input_buffer();
   void expose(std::int64_t frame);
