@@ -19,7 +19,13 @@ struct DmaEngineConfig {
   std::uint32_t fifo_bursts = 8;  ///< bursts that the engine's FIFO holds
 
   /// The FIFO, as the stream between the engine and what packs or unpacks bursts.
-  FifoConfig fifo() const { return {fifo_bursts, Bits(burst.count() * 8)}; }
+  FifoConfig fifo() const {
+    FifoConfig config;
+    config.depth = fifo_bursts;
+    config.width = Bits(burst.count() * 8);
+    config.at_memory = true;
+    return config;
+  }
 };
 
 /// One transfer: rows of bytes that lie one after the other in memory.

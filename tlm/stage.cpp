@@ -93,20 +93,24 @@ bool Stage::fire() {
   }
 
   Cycles room(0);
+  bool full_at_memory = false;
   if (phase.produce != 0) {
     if (latency_ == 0) {
       for (StreamBase* stream : outputs_.of_mask[phase.produce]) {
         if (!stream->write_date_known()) {
           stream->wait_for_room();
           known = false;
-        } else {
-          room = std::max(room, stream->writable_at());
+        } else if (const Cycles date = stream->writable_at(); date > room) {
+          room = date;
+          full_at_memory = stream->at_memory();
         }
       }
     } else if (entered_ - left_ == latency_) {
       known = false;  // drain() has said which stream it waits for
     } else if (entered_ >= latency_) {
-      room = pipe_[(entered_ - latency_) & pipe_mask_].left;
+      const Firing& ahead = pipe_[(entered_ - latency_) & pipe_mask_];
+      room = ahead.left;
+      full_at_memory = ahead.by_memory;
     }
   }
   if (!known) return false;
@@ -115,19 +119,19 @@ bool Stage::fire() {
   const Cycles start = std::max(ready, room);
   const Cycles starved = ready - free_;
   for (StreamBase* stream : consumed) stream->mark_read(start, stream == latest ? starved : Cycles(0));
-  statistics_.starved += starved;
-  statistics_.blocked += start - ready;
-  (phase.consume == 0 && phase.produce == 0 ? statistics_.idle : statistics_.busy) += Cycles(phase.interval);
-  ++statistics_.firings;
-
-  if (frame_begins) {
-    frames_.push_back({start, start, Cycles(-1), Cycles(-1)});
+  if (starved > Cycles(0)) {
+    (!latest->at_memory() ? statistics_.starved : frame_begins ? statistics_.blanking : statistics_.memory) +=
+        starved;
   }
+  (full_at_memory ? statistics_.memory : statistics_.blocked) += start - ready;
+  if (frame_begins) frames_.push_back({start, start, Cycles(-1), Cycles(-1), statistics_});
+  (phase.consume == 0 && phase.produce == 0 ? statistics_.blanking : statistics_.busy) += Cycles(phase.interval);
+  ++statistics_.firings;
   frames_.back().last_firing = start;
   free_ = start + Cycles(phase.interval);
   if (phase.produce != 0) {
     Firing& firing = pipe_[entered_++ & pipe_mask_];
-    firing = {start, start, phase.produce, static_cast<std::uint32_t>(frames_.size() - 1)};
+    firing = {start, start, phase.produce, false, static_cast<std::uint32_t>(frames_.size() - 1)};
     if (latency_ == 0) {
       ++left_;
       write(firing, start);
@@ -165,6 +169,7 @@ bool Stage::write(Firing& firing, Cycles earliest) {
   last_write_ = std::max(wanted, room);
   firing.left = last_write_;
   const Cycles blocked = last_write_ - wanted;
+  firing.by_memory = blocked > Cycles(0) && latest->at_memory();
   for (StreamBase* stream : produced) {
     stream->mark_written(last_write_, stream == latest ? blocked : Cycles(0));
   }

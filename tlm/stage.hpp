@@ -13,21 +13,27 @@
 
 namespace parallax {
 
+/// Where a stage's time went, in cycles of its clock. The five are exact and complete: their sum is the date up to
+/// which they are known.
+struct StageStatistics {
+  std::uint64_t firings = 0;
+  Cycles busy;      ///< firing with a token on some port
+  Cycles blanking;  ///< declared row and frame overheads, and no frame there: waiting for a frame's first token from
+                    ///< the memory
+  Cycles starved;   ///< held back by an empty input
+  Cycles blocked;   ///< held back by a full output
+  Cycles memory;    ///< held back by a stream from or to a memory port, within a frame
+
+  Cycles total() const { return busy + blanking + starved + blocked + memory; }
+};
+
 /// When one frame went through a stage, in cycles of its clock.
 struct FrameDates {
   Cycles first_firing;
   Cycles last_firing;
   Cycles first_write{-1};  ///< -1: none yet
   Cycles last_write{-1};
-};
-
-/// Where a stage's time went, in cycles of its clock.
-struct StageStatistics {
-  std::uint64_t firings = 0;
-  Cycles busy;     ///< firing with a token on some port
-  Cycles idle;     ///< declared row and frame overheads
-  Cycles starved;  ///< held back by an empty input
-  Cycles blocked;  ///< held back by a full output
+  StageStatistics before;  ///< until first_firing: `before.total() == first_firing`
 };
 
 /// A hardware stage: an SC_MODULE that fires by a fixed schedule.
@@ -75,6 +81,7 @@ class Stage : public sc_core::sc_module, public Actor {
     Cycles start;
     Cycles left;  // when it left the pipeline, once that is known
     PortMask produce = 0;
+    bool by_memory = false;  // the last to make room for it was a memory port
     std::uint32_t frame = 0;
   };
   struct Streams {  // of one PortMask, as a piece of Ports::streams

@@ -13,9 +13,13 @@ namespace {
 
 constexpr std::uint32_t kLargestDepth = 1u << 24;
 
+// Beyond the depth, a ring holds the dates that settle() has not counted yet, and the history in which periodic motion
+// is recognised.
+constexpr std::uint64_t kHistory = 64;
+
 std::uint64_t ring_mask(std::uint32_t depth) {
   std::uint64_t size = 1;
-  while (size <= depth) size *= 2;  // one more than depth: settle_occupancy() looks one read further back
+  while (size < depth + kHistory) size *= 2;
   return size - 1;
 }
 
@@ -42,7 +46,8 @@ StreamBase::StreamBase(const char* name, Dataflow& dataflow, const ClockDomain& 
       same_clock_(writer_clock.frequency() == reader_clock.frequency()),
       mask_(ring_mask(config.depth)),
       write_dates_(mask_ + 1),
-      read_dates_(mask_ + 1) {
+      read_dates_(mask_ + 1),
+      occupancy_(config.depth) {
   dataflow.add(*this);
 }
 
@@ -60,47 +65,49 @@ void StreamBase::attach_reader(const std::string& module, Actor* actor) {
   }
 }
 
-void StreamBase::mark_read(Cycles cycle, Cycles starved) {
-  read_dates_[statistics_.read & mask_] = cycle;
-  statistics_.starved_on_empty += starved;
-  ++statistics_.read;
-  last_read_ = cycle;
-  if (listener_ != nullptr) listener_->read(*this, cycle);
-  settle_occupancy();
-  if (std::exchange(writer_waits_, false)) {
-    if (writer_ != nullptr) {
-      dataflow_.wake(*writer_);
-    } else {
-      read_.notify();
-    }
+void StreamBase::wake_writer() {
+  writer_waits_ = false;
+  if (writer_ != nullptr) {
+    dataflow_.wake(*writer_);
+  } else {
+    read_.notify();
   }
 }
 
-void StreamBase::mark_written(Cycles cycle, Cycles blocked) {
-  write_dates_[statistics_.written & mask_] = cycle;
-  statistics_.blocked_on_full += blocked;
-  ++statistics_.written;
-  last_write_ = cycle;
-  if (listener_ != nullptr) listener_->written(*this, cycle);
-  if (std::exchange(reader_waits_, false)) {
-    if (reader_ != nullptr) {
-      dataflow_.wake(*reader_);
-    } else {
-      written_.notify();
-    }
+void StreamBase::wake_reader() {
+  reader_waits_ = false;
+  if (reader_ != nullptr) {
+    dataflow_.wake(*reader_);
+  } else {
+    written_.notify();
   }
 }
 
-// Counts how full the FIFO was after each write, once every read that made room before it is known: the reads
-// are known in order, so that is when one is known that makes room later than the write.
-void StreamBase::settle_occupancy() {
-  const Cycles room = backward(read_dates_[(statistics_.read - 1) & mask_]);
-  while (settled_writes_ < statistics_.written) {
-    const Cycles written = write_dates_[settled_writes_ & mask_];
-    if (written >= room) break;
-    while (freed_ < statistics_.read && backward(read_dates_[freed_ & mask_]) <= written) ++freed_;
-    ++settled_writes_;
-    statistics_.high_water = std::max(statistics_.high_water, settled_writes_ - freed_);
+// Goes through writes and reads in the order in which they change the level. A date counts once it is certain that
+// nothing unknown can come before it: each side's next date is later than its last one.
+void StreamBase::settle() const {
+  std::uint64_t level = settled_writes_ - freed_;
+  for (;;) {
+    const bool write_known = settled_writes_ < statistics_.written;
+    const bool read_known = freed_ < statistics_.read;
+    if (!write_known && !read_known) return;
+    const Cycles write = write_known ? write_dates_[settled_writes_ & mask_] : last_write_ + Cycles(1);
+    const Cycles room = backward(read_known ? read_dates_[freed_ & mask_] : last_read_ + Cycles(1));
+    const bool frees = room <= write;  // first, where both come in one cycle: a token in its last cycle still counts
+    if (frees ? !read_known : !write_known) return;
+    const Cycles date = frees ? room : write;
+    if (date > settled_until_) {
+      occupancy_.add(level, static_cast<std::uint64_t>((date - settled_until_).count()));
+      settled_until_ = date;
+    }
+    if (frees) {
+      ++freed_;
+      --level;
+    } else {
+      ++settled_writes_;
+      ++level;
+      statistics_.high_water = std::max(statistics_.high_water, level);
+    }
   }
 }
 

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <systemc>
+#include <utility>
 #include <vector>
 
 #include "tlm/clock_domain.hpp"
 #include "tlm/dataflow.hpp"
+#include "tlm/occupancy.hpp"
 #include "tlm/units.hpp"
 
 namespace parallax {
@@ -22,6 +25,8 @@ struct FifoConfig {
   /// Edges of the writer's clock after the reading edge until the freed place can be written; 1 = registered
   /// FIFO.
   std::uint32_t read_to_write = 1;
+  /// One end is a memory port: who waits here waits for the memory (StageStatistics::memory).
+  bool at_memory = false;
 };
 
 /// What happened on a stream, in tokens and in cycles of the side that waited.
@@ -63,7 +68,16 @@ class StreamBase : public sc_core::sc_prim_channel, public virtual sc_core::sc_i
   Bits storage() const { return config_.width * config_.depth; }
   const ClockDomain& writer_clock() const { return writer_clock_; }
   const ClockDomain& reader_clock() const { return reader_clock_; }
-  const StreamStatistics& statistics() const { return statistics_; }
+  bool at_memory() const { return config_.at_memory; }
+  const StreamStatistics& statistics() const {
+    settle();
+    return statistics_;
+  }
+  /// How full the FIFO was, as its writer sees it: a place counts from the write on until it can be written again.
+  const Occupancy& occupancy() const {
+    settle();
+    return occupancy_;
+  }
   Dataflow& dataflow() const { return dataflow_; }
   /// At most one listener; nullptr for none. It must outlive the simulation.
   void listen(StreamListener* listener) { listener_ = listener; }
@@ -81,7 +95,15 @@ class StreamBase : public sc_core::sc_prim_channel, public virtual sc_core::sc_i
   /// First cycle in which the next token can be read. Needs read_date_known().
   Cycles readable_at() const { return forward(write_dates_[statistics_.read & mask_]); }
   /// The next token is read in `cycle`, having held its reader back by `starved` cycles.
-  void mark_read(Cycles cycle, Cycles starved);
+  void mark_read(Cycles cycle, Cycles starved) {
+    read_dates_[statistics_.read & mask_] = cycle;
+    statistics_.starved_on_empty += starved;
+    ++statistics_.read;
+    last_read_ = cycle;
+    if (listener_ != nullptr) listener_->read(*this, cycle);
+    if (statistics_.read % kSettleInterval == 0) settle();
+    if (writer_waits_) wake_writer();
+  }
   /// The reading actor stops here until the next token's date is known.
   void wait_for_token() { reader_waits_ = true; }
 
@@ -97,7 +119,14 @@ class StreamBase : public sc_core::sc_prim_channel, public virtual sc_core::sc_i
     return index < config_.depth ? Cycles(0) : backward(read_dates_[(index - config_.depth) & mask_]);
   }
   /// The next token is written in `cycle`, its writer having been held back by `blocked` cycles.
-  void mark_written(Cycles cycle, Cycles blocked);
+  void mark_written(Cycles cycle, Cycles blocked) {
+    write_dates_[statistics_.written & mask_] = cycle;
+    statistics_.blocked_on_full += blocked;
+    ++statistics_.written;
+    last_write_ = cycle;
+    if (listener_ != nullptr) listener_->written(*this, cycle);
+    if (reader_waits_) wake_reader();
+  }
   /// The writing actor stops here until there is known to be room.
   void wait_for_room() { writer_waits_ = true; }
 
@@ -126,7 +155,12 @@ class StreamBase : public sc_core::sc_prim_channel, public virtual sc_core::sc_i
     if (same_clock_) return read + Cycles(config_.read_to_write);
     return writer_clock_.first_edge_after(reader_clock_, read) + Cycles(config_.read_to_write - 1);
   }
-  void settle_occupancy();
+  void settle() const;
+  void wake_reader();
+  void wake_writer();
+
+  // Reads between two counts of the occupancy; the rings hold the dates until then.
+  static constexpr std::uint64_t kSettleInterval = 16;
 
   const FifoConfig config_;
   Dataflow& dataflow_;
@@ -136,9 +170,12 @@ class StreamBase : public sc_core::sc_prim_channel, public virtual sc_core::sc_i
   const std::uint64_t mask_;
   std::vector<Cycles> write_dates_;  // of the last tokens, by index & mask_
   std::vector<Cycles> read_dates_;
-  StreamStatistics statistics_;
-  std::uint64_t settled_writes_ = 0;  // writes whose occupancy has been counted
-  std::uint64_t freed_ = 0;           // reads that made room before the first unsettled write
+  // The occupancy is counted a little after the dates, or when somebody asks.
+  mutable StreamStatistics statistics_;
+  mutable Occupancy occupancy_;
+  mutable std::uint64_t settled_writes_ = 0;  // writes and
+  mutable std::uint64_t freed_ = 0;           // reads whose effect on the occupancy has been counted
+  mutable Cycles settled_until_{0};           // the occupancy has been counted up to here
   bool reader_waits_ = false;
   bool writer_waits_ = false;
   StreamListener* listener_ = nullptr;

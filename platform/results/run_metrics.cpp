@@ -131,7 +131,7 @@ void add_pipeline(MetricGroup& root, const Machine& machine, const SteadyWindow&
     group.add(
         {"utilisation", 100.0 * share_of(loads, info.stage->basename()), "%", "Of the time.", window.text});
     group.add({"busy", s.busy.count(), "cycles", "At work with a token on some port.", all});
-    group.add({"idle", s.idle.count(), "cycles", "Declared row and frame overhead.", all});
+    group.add({"idle", s.blanking.count(), "cycles", "Declared row and frame overhead.", all});
     group.add({"starved", s.starved.count(), "cycles", "Held back by an empty input.", all});
     group.add({"blocked", s.blocked.count(), "cycles", "Held back by a full output.", all});
     group.add({"storage", info.storage.count(), "bit", "Line buffers and the like, without FIFOs.", ""});

@@ -112,7 +112,7 @@ TEST(Stage, OverheadsKeepItBusyAfterRowsAndFrames) {
   const GraphNode rows = stage(0, {{2, {{2, 1, 1, 1}, {1, 5, 0, 0}}}, {1, {{1, 100, 0, 0}}}});
   ModelSimulation model(chain(zeros(6), rows, zeros(6)), kThreads);
   EXPECT_EQ(model.run()[0].read, Dates({1, 2, 8, 9, 115, 116}));
-  EXPECT_EQ(model.stage(1).statistics().idle.count(), 5 * 3 + 100);
+  EXPECT_EQ(model.stage(1).statistics().blanking.count(), 5 * 3 + 100);
 }
 
 TEST(Stage, AForkWritesBothOrNeither) {
@@ -172,9 +172,9 @@ TEST(Stage, ItsTimeIsAccountedFor) {
   EXPECT_EQ(s.starved.count(), 1);  // from 0 to 1
   EXPECT_EQ(s.blocked.count(), 11 - 3);
   EXPECT_EQ(s.busy.count(), 4 * 2);
-  EXPECT_EQ(s.idle.count(), 0);
+  EXPECT_EQ(s.blanking.count(), 0);
   // Every cycle up to the end of the last firing is one of these.
-  EXPECT_EQ((s.starved + s.blocked + s.busy + s.idle).count(), 15 + 2);
+  EXPECT_EQ((s.starved + s.blocked + s.busy + s.blanking).count(), 15 + 2);
 }
 
 TEST(Stage, ItsPortsCanBeLookedUp) {
