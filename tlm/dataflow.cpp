@@ -6,20 +6,40 @@
 #include <algorithm>
 #include <utility>
 
+#include "tlm/leap.hpp"
 #include "tlm/stream_base.hpp"
 
 namespace parallax {
 
-Dataflow::Dataflow(const sc_core::sc_module_name& name) : sc_module(name) {
+Dataflow::Dataflow(const sc_core::sc_module_name& name, std::uint64_t leap_interval)
+    : sc_module(name), leap_interval_(leap_interval) {
   SC_HAS_PROCESS(Dataflow);
   SC_METHOD(run);
-  sensitive << work_;
+  sensitive << work_ << due_;
+}
+
+Dataflow::~Dataflow() = default;
+
+void Dataflow::start_of_simulation() {
+  for (Stage* stage : stages_) {
+    if (std::none_of(leaps_.begin(), leaps_.end(), [&](const auto& leap) {
+          return leap->clock().frequency() == stage->clock().frequency();
+        })) {
+      leaps_.push_back(std::make_unique<Leap>(*this, stage->clock()));
+      leaps_.back()->build(stages_);
+    }
+  }
 }
 
 void Dataflow::wake(Actor& actor) {
-  if (actor.queued_) return;
-  actor.queued_ = true;
-  ready_.push_back(&actor);
+  if (actor.held_by_ != nullptr) {
+    if (!actor.held_idle_) return;  // it goes on when that is due
+    actor.held_by_->ask_for_release();
+  } else {
+    if (actor.queued_) return;
+    actor.queued_ = true;
+    ready_.push_back(&actor);
+  }
   if (!std::exchange(notified_, true)) work_.notify();
 }
 
@@ -28,21 +48,60 @@ void Dataflow::post(std::function<void()> action) {
   if (!std::exchange(notified_, true)) work_.notify();
 }
 
+void Dataflow::hold(Actor& actor, Leap* leap, bool active) {
+  actor.held_by_ = leap;
+  actor.held_idle_ = !active;
+}
+
+void Dataflow::release(Actor& actor) {
+  actor.held_by_ = nullptr;
+  wake(actor);
+}
+
+// One action or actor; whether there was any.
+bool Dataflow::step() {
+  if (!actions_.empty()) {
+    const auto action = std::move(actions_.front());
+    actions_.pop_front();
+    action();
+    return true;
+  }
+  if (ready_.empty()) return false;
+  Actor& actor = *ready_.front();
+  ready_.pop_front();
+  actor.queued_ = false;
+  if (actor.held_by_ == nullptr) actor.advance();
+  return true;
+}
+
+void Dataflow::drain() {
+  while (step()) continue;
+}
+
+bool Dataflow::attempt_leaps() {
+  bool found = false;
+  for (const auto& leap : leaps_) found |= !leap->holding() && leap->attempt();
+  firings_ = 0;
+  return found;
+}
+
 void Dataflow::run() {
-  // notified_ is true here, so wakes from within need no event.
-  while (!actions_.empty() || !ready_.empty()) {
-    if (!actions_.empty()) {
-      const auto action = std::move(actions_.front());
-      actions_.pop_front();
-      action();
-      continue;
+  notified_ = true;  // so wakes from within need no event
+  bool eager = false;
+  for (;;) {
+    while (step()) {
+      if (leap_interval_ != 0 && firings_ >= leap_interval_) eager |= attempt_leaps();
     }
-    Actor& actor = *ready_.front();
-    ready_.pop_front();
-    actor.queued_ = false;
-    actor.advance();
+    bool moved = false;
+    for (const auto& leap : leaps_) {
+      if (leap->holding() && leap->go_on(eager)) moved = eager = true;
+    }
+    if (!moved) break;
   }
   notified_ = false;
+  for (const auto& leap : leaps_) {
+    if (leap->holding()) due_.notify(leap->due() - sc_core::sc_time_stamp());
+  }
 }
 
 std::vector<Wait> Dataflow::waits() const {

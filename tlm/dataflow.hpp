@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <deque>
 #include <functional>
+#include <memory>
 #include <string>
 #include <systemc>
 #include <vector>
 
 namespace parallax {
 
+class Leap;
+class Stage;
 class StreamBase;
 
 /// Something that turns known dates into further dates and returns when it needs one that is not known yet.
@@ -21,6 +25,8 @@ class Actor {
  private:
   friend class Dataflow;
   bool queued_ = false;
+  Leap* held_by_ = nullptr;
+  bool held_idle_ = false;
 };
 
 /// One wait of a deadlock: who waits on which stream, for what, and who would have to act.
@@ -36,7 +42,13 @@ struct Wait {
 /// actors at the streams, and never notice: every date that they can see is in their present or future.
 class Dataflow final : public sc_core::sc_module {
  public:
-  explicit Dataflow(const sc_core::sc_module_name& name);
+  /// Firings between two looks for periodic motion (leap.hpp): often enough to miss little, seldom enough to cost
+  /// little.
+  static constexpr std::uint64_t kLeapInterval = 600;
+
+  /// `leap_interval`: 0 for no leaps: every firing is gone through one by one.
+  explicit Dataflow(const sc_core::sc_module_name& name, std::uint64_t leap_interval = kLeapInterval);
+  ~Dataflow() override;
 
   /// Queues an actor; it advances before kernel time does.
   void wake(Actor& actor);
@@ -45,6 +57,8 @@ class Dataflow final : public sc_core::sc_module {
   void post(std::function<void()> action);
 
   void add(StreamBase& stream) { streams_.push_back(&stream); }
+  void add(Stage& stage) { stages_.push_back(&stage); }
+  void count_firings(std::uint64_t count) { firings_ += count; }
   const std::vector<StreamBase*>& streams() const { return streams_; }
 
   /// The closed chain of waits when the simulation has run dry, else empty. Each wait's `other` is the next
@@ -54,12 +68,24 @@ class Dataflow final : public sc_core::sc_module {
   std::vector<Wait> waits() const;
 
  private:
+  friend class Leap;
+  void start_of_simulation() override;
   void run();
+  bool step();
+  void drain();  // actions and actors until nobody can move
+  bool attempt_leaps();
+  void hold(Actor& actor, Leap* leap, bool active);
+  void release(Actor& actor);
 
   std::deque<Actor*> ready_;
   std::deque<std::function<void()>> actions_;
   std::vector<StreamBase*> streams_;
+  std::vector<Stage*> stages_;
+  std::vector<std::unique_ptr<Leap>> leaps_;  // one for each clock
+  const std::uint64_t leap_interval_;
+  std::uint64_t firings_ = 0;  // since the last attempt
   sc_core::sc_event work_;
+  sc_core::sc_event due_;  // what a leap has not computed yet is about to come
   bool notified_ = true;  // a run is coming or under way; the first comes by itself at time 0
 };
 

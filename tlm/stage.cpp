@@ -7,14 +7,20 @@
 #include <stdexcept>
 
 namespace parallax {
+namespace {
+
+constexpr std::uint32_t kPipeHistory = 64;  // firings that have left, for Leap
+
+}  // namespace
 
 Stage::Stage(const sc_core::sc_module_name& name, const ClockDomain& clock, Dataflow& dataflow,
              std::uint32_t latency)
     : sc_module(name), clock_(clock), dataflow_(dataflow), latency_(latency) {
   std::size_t size = 1;
-  while (size < latency) size *= 2;
+  while (size < latency + kPipeHistory) size *= 2;
   pipe_.resize(size);
   pipe_mask_ = size - 1;
+  dataflow.add(*this);
 }
 
 void Stage::end_of_elaboration() {
@@ -67,14 +73,17 @@ void Stage::start_of_simulation() { dataflow_.wake(*this); }
 
 void Stage::advance() {
   if (schedule_.empty()) return;
+  const std::uint64_t before = statistics_.firings;
   drain();
   while (fire()) drain();
+  dataflow_.count_firings(statistics_.firings - before);
 }
 
 // Starts the next firing if its date is known.
 bool Stage::fire() {
   const bool frame_begins = next_.segment == 0 && next_.pass == 0 && next_.phase == 0 && next_.count == 0;
   if (frame_begins && frame_limit_ != 0 && frames_.size() == frame_limit_) return false;
+  if (statistics_.firings == fire_limit_) return false;
   const Schedule::Segment& segment = schedule_.segments()[next_.segment];
   const Phase& phase = schedule_.phases()[segment.first_phase + next_.phase];
 
@@ -118,6 +127,11 @@ bool Stage::fire() {
   const Cycles ready = std::max(free_, inputs);
   const Cycles start = std::max(ready, room);
   const Cycles starved = ready - free_;
+  if (observed_ != nullptr) {
+    observed_->push_back({free_, start});
+    observe(phase, consumed);
+  }
+  starts_[statistics_.firings % kStartsKept] = start;
   for (StreamBase* stream : consumed) stream->mark_read(start, stream == latest ? starved : Cycles(0));
   if (starved > Cycles(0)) {
     (!latest->at_memory() ? statistics_.starved : frame_begins ? statistics_.blanking : statistics_.memory) +=
@@ -166,6 +180,9 @@ bool Stage::write(Firing& firing, Cycles earliest) {
   }
   if (!known) return false;
   const Cycles wanted = std::max(earliest, last_write_ + Cycles(1));
+  if (observed_ != nullptr && latency_ != 0) {
+    for (StreamBase* stream : produced) stream->watch_write(wanted);
+  }
   last_write_ = std::max(wanted, room);
   firing.left = last_write_;
   const Cycles blocked = last_write_ - wanted;
@@ -173,10 +190,69 @@ bool Stage::write(Firing& firing, Cycles earliest) {
   for (StreamBase* stream : produced) {
     stream->mark_written(last_write_, stream == latest ? blocked : Cycles(0));
   }
-  FrameDates& frame = frames_[firing.frame];
-  if (frame.first_write < Cycles(0)) frame.first_write = last_write_;
-  frame.last_write = last_write_;
+  note_write(frames_[firing.frame], last_write_);
   return true;
+}
+
+void Stage::note_write(FrameDates& frame, Cycles cycle) {
+  if (frame.first_write < Cycles(0)) frame.first_write = cycle;
+  frame.last_write = cycle;
+  last_write_ = cycle;
+}
+
+// Whether the dates that the next firing needs are known.
+bool Stage::can_fire() const {
+  if (schedule_.empty()) return false;
+  const bool frame_begins = next_.segment == 0 && next_.pass == 0 && next_.phase == 0 && next_.count == 0;
+  if (frame_begins && frame_limit_ != 0 && frames_.size() == frame_limit_) return false;
+  const Phase& phase = schedule_.phases()[schedule_.segments()[next_.segment].first_phase + next_.phase];
+  for (const StreamBase* stream : inputs_.of_mask[phase.consume]) {
+    if (!stream->read_date_known()) return false;
+  }
+  if (phase.produce == 0) return true;
+  if (latency_ != 0) return entered_ - left_ != latency_;
+  for (const StreamBase* stream : outputs_.of_mask[phase.produce]) {
+    if (!stream->write_date_known()) return false;
+  }
+  return true;
+}
+
+// Notes for Leap which streams hold this firing back.
+void Stage::observe(const Phase& phase, Streams consumed) {
+  for (StreamBase* stream : consumed) stream->watch_read(free_);
+  if (latency_ != 0) return;
+  for (StreamBase* stream : outputs_.of_mask[phase.produce]) stream->watch_write(free_);
+}
+
+// Moves a position on; at the frame's end it is left behind the last segment.
+void Stage::skip(Position& position, std::uint64_t firings) const {
+  while (firings > 0) {
+    const Schedule::Segment& segment = schedule_.segments()[position.segment];
+    const Phase* phases = schedule_.phases().data() + segment.first_phase;
+    if (position.phase == 0 && position.count == 0) {
+      std::uint64_t pass = 0;
+      for (std::uint32_t i = 0; i < segment.phase_count; ++i) pass += phases[i].count;
+      const std::uint64_t passes = std::min(firings / pass, segment.repeat - position.pass);
+      firings -= passes * pass;
+      position.pass += passes;
+      if (position.pass == segment.repeat) {
+        ++position.segment;
+        position.pass = 0;
+        continue;
+      }
+      if (firings == 0) return;
+    }
+    const std::uint64_t step = std::min<std::uint64_t>(firings, phases[position.phase].count - position.count);
+    firings -= step;
+    position.count += static_cast<std::uint32_t>(step);
+    if (position.count < phases[position.phase].count) return;
+    position.count = 0;
+    if (++position.phase < segment.phase_count) continue;
+    position.phase = 0;
+    if (++position.pass < segment.repeat) continue;
+    position.pass = 0;
+    ++position.segment;
+  }
 }
 
 void Stage::step(const Phase& phase) {

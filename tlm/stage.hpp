@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <limits>
 #include <systemc>
+#include <utility>
 #include <vector>
 
 #include "tlm/clock_domain.hpp"
@@ -25,6 +28,17 @@ struct StageStatistics {
   Cycles memory;    ///< held back by a stream from or to a memory port, within a frame
 
   Cycles total() const { return busy + blanking + starved + blocked + memory; }
+  StageStatistics& operator-=(const StageStatistics& o) { return add(o, -1); }
+  /// Adds `times` times the other's counts.
+  StageStatistics& add(const StageStatistics& o, std::int64_t times) {
+    firings += o.firings * static_cast<std::uint64_t>(times);
+    busy += o.busy * times;
+    blanking += o.blanking * times;
+    starved += o.starved * times;
+    blocked += o.blocked * times;
+    memory += o.memory * times;
+    return *this;
+  }
 };
 
 /// When one frame went through a stage, in cycles of its clock.
@@ -77,6 +91,13 @@ class Stage : public sc_core::sc_module, public Actor {
   void advance() override;
 
  private:
+  friend class Leap;
+  static constexpr std::uint64_t kStartsKept = 128;
+
+  struct Observed {  // one firing
+    Cycles free;     // when the stage was ready for it
+    Cycles start;
+  };
   struct Firing {  // one that writes
     Cycles start;
     Cycles left;  // when it left the pipeline, once that is known
@@ -102,13 +123,22 @@ class Stage : public sc_core::sc_module, public Actor {
     std::uint32_t count = 0;
   };
 
+  // When the firing `before` places before the last one started.
+  Cycles start_of_last(std::uint64_t before) const {
+    return starts_[(statistics_.firings - 1 - before) % kStartsKept];
+  }
+
   static Ports gather(const std::vector<std::vector<StreamBase*>>& ports);
   static std::vector<const StreamBase*> at_port(const Ports& ports, unsigned port);
 
   bool fire();
+  bool can_fire() const;
   void drain();
   bool write(Firing& firing, Cycles earliest);
+  void note_write(FrameDates& frame, Cycles cycle);
+  void observe(const Phase& phase, Streams consumed);
   void step(const Phase& phase);
+  void skip(Position& position, std::uint64_t firings) const;
 
   const ClockDomain& clock_;
   Dataflow& dataflow_;
@@ -119,6 +149,9 @@ class Stage : public sc_core::sc_module, public Actor {
   Ports outputs_;
 
   Position next_;
+  std::uint64_t fire_limit_ = std::numeric_limits<std::uint64_t>::max();  // set by Leap
+  std::vector<Observed>* observed_ = nullptr;                             // by Leap
+  std::array<Cycles, kStartsKept> starts_{};                              // of the last firings
   Cycles free_{0};            // first cycle in which the stage can fire again
   std::vector<Firing> pipe_;  // the last firings that write, by index & pipe_mask_
   std::uint64_t pipe_mask_;

@@ -97,7 +97,9 @@ void StreamBase::settle() const {
     if (frees ? !read_known : !write_known) return;
     const Cycles date = frees ? room : write;
     if (date > settled_until_) {
-      occupancy_.add(level, static_cast<std::uint64_t>((date - settled_until_).count()));
+      const auto cycles = static_cast<std::uint64_t>((date - settled_until_).count());
+      occupancy_.add(level, cycles);
+      if (counted_ != nullptr) counted_->emplace_back(level, cycles);
       settled_until_ = date;
     }
     if (frees) {

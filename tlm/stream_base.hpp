@@ -147,6 +147,23 @@ class StreamBase : public sc_core::sc_prim_channel, public virtual sc_core::sc_i
   void commit(const sc_core::sc_time& time = sc_core::sc_time_stamp());
 
  private:
+  friend class Leap;
+  friend class Stage;
+  struct Watch {  // what Leap wants to know of one period
+    bool any = false;
+    bool binds = false;  // a date of this stream held its reader (writer) back
+    Cycles first;        // when the reader (writer) was first ready, whatever this stream's date
+  };
+  void watch_read(Cycles ready) { note(read_watch_, ready, readable_at()); }
+  void watch_write(Cycles ready) { note(write_watch_, ready, writable_at()); }
+  static void note(Watch& watch, Cycles ready, Cycles date) {
+    if (!std::exchange(watch.any, true)) watch.first = ready;
+    watch.binds = watch.binds || date > ready;
+  }
+  Cycles write_date(std::uint64_t token) const { return write_dates_[token & mask_]; }
+  Cycles read_date(std::uint64_t token) const { return read_dates_[token & mask_]; }
+  std::uint64_t history() const { return mask_ + 1; }
+
   Cycles forward(Cycles written) const {
     if (same_clock_) return written + Cycles(config_.write_to_read);
     return reader_clock_.first_edge_after(writer_clock_, written) + Cycles(config_.write_to_read - 1);
@@ -185,6 +202,9 @@ class StreamBase : public sc_core::sc_prim_channel, public virtual sc_core::sc_i
   std::string reader_name_ = "nobody";
   sc_core::sc_event written_;
   sc_core::sc_event read_;
+  Watch read_watch_;
+  Watch write_watch_;
+  std::vector<std::pair<std::uint64_t, std::uint64_t>>* counted_ = nullptr;  // Leap's copy of what occupancy_ adds
   Cycles last_read_{-1};
   Cycles last_write_{-1};
   Cycles read_wait_began_{0};

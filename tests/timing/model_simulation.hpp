@@ -34,8 +34,10 @@ class GraphStage final : public Stage {
 class ModelSimulation {
  public:
   /// `threads`: sources and sinks are kernel threads where bit (node % 64) is set, else actors.
-  ModelSimulation(const Graph& given, std::uint64_t threads)
-      : graph_(given), dataflow_("dataflow"), dates_(given.edges.size()) {
+  /// `leap_interval`: as for Dataflow.
+  ModelSimulation(const Graph& given, std::uint64_t threads,
+                  std::uint64_t leap_interval = Dataflow::kLeapInterval)
+      : graph_(given), dataflow_("dataflow", leap_interval), dates_(given.edges.size()) {
     const Graph& graph = graph_;
     for (std::size_t i = 0; i < graph.periods.size(); ++i) {
       clocks_.push_back(std::make_unique<ClockDomain>(fmt::format("clock_{}", i),

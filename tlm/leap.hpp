@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <systemc>
+#include <utility>
+#include <vector>
+
+#include "tlm/occupancy.hpp"
+#include "tlm/stage.hpp"
+
+namespace parallax {
+
+/// Leaps over periodic motion: when all stages of one clock repeat themselves, cycle for cycle, with a period of T
+/// cycles, n periods are added to their state at once instead of being gone through token by token.
+///
+/// Why every date stays exact. The dates follow from a state: what a stage still has to do, the dates in its
+/// pipeline, and the dates of the tokens and free places in the streams. observe() lets every stage go through one
+/// period, firing by firing as always, and compares the state with the one before: if all that can still make a
+/// difference is the same but T cycles later, then the next period is this one, T cycles later, as long as the
+/// schedules go on alike. A date that cannot make a difference (a token that was there long before it is read, a
+/// place that was free long before it is written) may differ; it is looked at, one by one, before it is used.
+///
+/// What is not periodic takes part one by one: streams from or to kernel time or another clock, and those that a
+/// schedule reads or writes at irregular firings (bursts, words of the map). Their dates must not hold anybody back;
+/// a leap ends before the firing at which one would.
+class Leap {
+ public:
+  Leap(Dataflow& dataflow, const ClockDomain& clock) : dataflow_(dataflow), clock_(clock) {}
+  Leap(const Leap&) = delete;
+  Leap& operator=(const Leap&) = delete;
+
+  const ClockDomain& clock() const { return clock_; }
+  /// Takes in the stages of this clock; when all are bound.
+  void build(const std::vector<Stage*>& stages);
+
+  /// Looks for periodic motion. When there is some, the stages are held: from here on they move by go_on() only.
+  bool attempt();
+  bool holding() const { return holding_; }
+  /// Moves the held stages as far as is known, when `eager` or when the kernel's time has come to what they did not
+  /// compute yet; lets go of them where periodic motion ends. Whether anything moved.
+  bool go_on(bool eager);
+  /// The date before which go_on() must be called again. Everything before it is known.
+  sc_core::sc_time due() const;
+  /// A stage that took no part could go on now: the leap ends.
+  void ask_for_release() { release_asked_ = true; }
+
+ private:
+  struct Link {
+    StreamBase* stream;
+    int writer = -1;  // index of the stage at each end, -1: none of this clock's
+    int reader = -1;
+    PortMask writer_port = 0;
+    PortMask reader_port = 0;
+    bool core = false;  // takes part in the periodic motion
+    // One period:
+    std::uint64_t writes = 0, reads = 0;
+    Cycles blocked, starved;
+    std::vector<std::pair<std::uint64_t, std::uint64_t>> levels;  // (level, cycles) counted
+    // What the stream's ends can do without asking: tokens before `sure_reads` are there, and places before
+    // `sure_writes` free, in time or as in the period before.
+    bool reads_bind = false, writes_bind = false;
+    std::uint64_t base_read = 0, base_written = 0;  // at the end of the period observed
+    std::uint64_t sure_reads = 0, sure_writes = 0;
+    // Of a stream that is not core: tokens of checked events.
+    std::uint64_t claimed_reads = 0, claimed_writes = 0;
+    StreamStatistics before;
+    std::uint64_t settled_before = 0, freed_before = 0;
+    Cycles settled_until_before;
+  };
+  enum class Check { kInTime, kLate, kUnknown };
+  struct Event {  // a firing that reads or writes a stream that is not core
+    std::uint64_t firing;
+    PortMask consume, produce;
+    bool checked;
+  };
+  struct Member {
+    Stage* stage;
+    std::vector<int> in, out;  // links
+    bool takes_part = false;   // has a core port
+    bool active = false;
+    std::uint64_t seen_firings = 0;
+    // The pattern: firings of a unit, and what all of them have in common.
+    std::uint64_t unit = 1;
+    PortMask core_in = 0, core_out = 0;
+    Phase common;
+    // One period:
+    std::uint64_t firings = 0, writes = 0;
+    StageStatistics delta;
+    std::vector<Stage::Observed> observed;
+    // Progress:
+    std::uint64_t base = 0, done = 0;  // firings at the end of the period observed, and since
+    Stage::Position cursor;            // of firing `scanned`
+    std::uint64_t scanned = 0;
+    bool ended = false;  // the pattern ends at `scanned`
+    std::deque<Event> events;
+    StageStatistics before;
+    std::uint64_t entered_before = 0, left_before = 0;
+    Cycles free_before, last_write_before;
+    std::size_t frames_before = 0;
+    Cycles last_event_write{-1};  // of the checked events
+  };
+
+  bool classify();
+  bool find_unit(Member& member, PortMask& mixed_in, PortMask& mixed_out);
+  bool find_period();
+  bool observe();
+  void snapshot();
+  bool repeats(Member& member) const;
+  bool repeats(Link& link) const;
+  bool reads_repeat(Link& link) const;
+  bool writes_repeat(Link& link) const;
+
+  bool extend();
+  void scan(Member& member);
+  std::uint64_t possible_firings(Member& member, bool& outside);
+  Check check(Member& member, const Event& event);
+  std::uint64_t possible_periods(Link& link, std::uint64_t wanted);
+  void commit_events(Member& member, std::uint64_t until);
+  Cycles start_of(const Member& member, std::uint64_t firing) const;
+  Cycles free_before(const Member& member, std::uint64_t firing) const;
+
+  void materialize();
+  void materialize(Member& member, std::uint64_t periods);
+  void materialize(Link& link, std::uint64_t periods);
+  void release();
+  void set_limits(bool limited, bool with_period);
+
+  Dataflow& dataflow_;
+  const ClockDomain& clock_;
+  std::vector<Member> members_;
+  std::vector<Link> links_;
+  std::vector<Cycles> model_;  // dates of one period; a member for its memory only
+  bool holding_ = false;
+  bool release_asked_ = false;
+  bool waits_outside_ = false;  // the last extend() stopped at something that is not known yet
+  std::int64_t period_ = 0;     // T, in cycles
+  std::uint64_t periods_ = 0;   // gone through since observe()
+  std::uint64_t materialized_ = 0;
+};
+
+}  // namespace parallax
