@@ -216,7 +216,7 @@ bool Leap::observe() {
   for (Member& member : members_) {
     Stage& stage = *member.stage;
     if (!member.active) {
-      same = same && !stage.can_fire();
+      same = same && !stage.can_fire() && stage.left_ == member.left_before;
     } else if (member.takes_part) {
       member.base = stage.statistics_.firings;
       member.last_event_write = stage.last_write_;
