@@ -12,6 +12,7 @@ constexpr std::uint64_t kLargestUnit = 64;   // firings of a unit, and of a peri
 constexpr std::uint64_t kLookedAt = 64;      // firings looked at to tell what an irregular schedule does always
 constexpr std::uint64_t kScannedAhead = 8192;  // firings
 constexpr std::size_t kEventsAhead = 256;
+constexpr int kWide = 5;                       // looks for which a stage counts as moving
 constexpr std::uint64_t kAlways = std::numeric_limits<std::uint64_t>::max();
 
 std::int64_t as_signed(std::uint64_t count) { return static_cast<std::int64_t>(count); }
@@ -63,16 +64,23 @@ void Leap::build(const std::vector<Stage*>& stages) {
 }
 
 bool Leap::attempt() {
-  const bool found = classify() && find_period() && observe();
-  for (Member& member : members_) member.seen_firings = member.stage->statistics_.firings;
-  return found;
+  // In the order in which the stages happen to be gone through, one that moves all the time may have stood still since
+  // the last look, and one that has come to its end may have moved. Every other look is a wide one.
+  const int recent = wide_ ? kWide : 1;
+  wide_ = !wide_;
+  for (Member& member : members_) {
+    const Stage& stage = *member.stage;
+    member.looks_still = stage.statistics_.firings == member.seen_firings ? member.looks_still + 1 : 0;
+    member.seen_firings = stage.statistics_.firings;
+    member.active = stage.statistics_.firings != 0 && (member.looks_still < recent || stage.can_fire());
+  }
+  return classify() && find_period() && observe();
 }
 
 // Finds out who takes part: the stages that have moved lately, with the unit in which each repeats itself, and the
 // streams that go along with it. Where a stage touches a stream irregularly, the stream is not core, for either end.
 bool Leap::classify() {
   for (Link& link : links_) link.core = link.writer >= 0 && link.reader >= 0 && link.stream->same_clock_;
-  for (Member& member : members_) member.active = member.stage->statistics_.firings != member.seen_firings;
   for (bool changed = true; changed;) {
     changed = false;
     for (Member& member : members_) {
@@ -220,6 +228,7 @@ bool Leap::observe() {
     } else if (member.takes_part) {
       member.base = stage.statistics_.firings;
       member.last_event_write = stage.last_write_;
+      member.claimed_pending = 0;
       member.done = 0;
       same = same && repeats(member);
       while (same && !member.ended && member.scanned < member.base) scan(member);
@@ -263,8 +272,8 @@ void Leap::snapshot() {
   for (Link& link : links_) {
     StreamBase& stream = *link.stream;
     stream.settle();
-    stream.read_watch_ = {};
-    stream.write_watch_ = {};
+    stream.read_watch_.reset();
+    stream.write_watch_.reset();
     link.before = stream.statistics_;
     link.settled_before = stream.settled_writes_;
     link.freed_before = stream.freed_;
@@ -289,9 +298,15 @@ bool Leap::repeats(Member& member) const {
   member.delta -= member.before;
   const bool writes = within(member.common.produce, member.core_out) != 0;
   member.writes = writes ? stage.entered_ - member.entered_before : 0;
+  const auto firing = [&stage](std::uint64_t i) -> const Stage::Firing& {
+    return stage.pipe_[i & stage.pipe_mask_];
+  };
   if (!writes) {
-    // What it writes irregularly leaves at once; nothing in the pipeline may hold it back.
-    return stage.entered_ == stage.left_ && member.delta.blocked == Cycles(0) && member.delta.memory == Cycles(0);
+    for (std::uint64_t i = member.left_before; i < stage.entered_; ++i) {
+      if (within(firing(i).produce, member.core_out) != 0) return false;  // still on its way out
+    }
+    // What it writes irregularly must not hold it back.
+    return member.delta.blocked == Cycles(0) && member.delta.memory == Cycles(0);
   }
   if (stage.left_ - member.left_before != member.writes ||
       (member.writes != 0 && stage.last_write_ - member.last_write_before != period)) {
@@ -299,13 +314,11 @@ bool Leap::repeats(Member& member) const {
   }
   if (stage.latency_ == 0) return true;
   if (stage.entered_ < stage.latency_ + member.writes) return false;
-  const auto firing = [&stage](std::uint64_t i) -> const Stage::Firing& {
-    return stage.pipe_[i & stage.pipe_mask_];
-  };
   for (std::uint64_t i = stage.entered_ - stage.latency_; i < stage.entered_; ++i) {
     const bool left = i < stage.left_;
     const Stage::Firing& before = firing(i - member.writes);
     if ((left ? firing(i).left - before.left : firing(i).start - before.start) != period) return false;
+    if (firing(i).produce != before.produce) return false;
   }
   for (std::uint64_t i = stage.left_ - member.writes; i < stage.entered_; ++i) {
     if (firing(i).frame + 1 != stage.frames_.size()) return false;
@@ -455,7 +468,7 @@ void Leap::scan(Member& member) {
         return;
       }
       count = 1;
-      member.events.push_back({member.scanned, consume, produce, false});
+      member.events.push_back({member.scanned, consume, produce, false, false});
     } else if (segment.phase_count == 1) {
       count += (segment.repeat - member.cursor.pass - 1) * phase.count;
     }
@@ -467,8 +480,10 @@ void Leap::scan(Member& member) {
 // Firings that keep to the pattern and whose irregular tokens and places are known to be there in time. `outside`:
 // it may become more when more is known.
 std::uint64_t Leap::possible_firings(Member& member, bool& outside) {
-  scan(member);
   const std::uint64_t now = member.base + member.done;
+  outside = false;
+  if (!write_pending(member)) return 0;
+  scan(member);
   outside = !member.ended;
   for (Event& event : member.events) {
     if (event.checked) continue;
@@ -483,7 +498,36 @@ std::uint64_t Leap::possible_firings(Member& member, bool& outside) {
   return member.scanned - now;
 }
 
-Leap::Check Leap::check(Member& member, const Event& event) {
+// Writes what waits in the pipeline of a stage that writes irregularly, as far as it is known when there is room. False
+// when it was held back: no leap goes over that.
+bool Leap::write_pending(Member& member) {
+  Stage& stage = *member.stage;
+  if (within(member.common.produce, member.core_out) != 0) return true;
+  while (stage.left_ != stage.entered_) {
+    Stage::Firing& firing = stage.pipe_[stage.left_ & stage.pipe_mask_];
+    const Cycles written = std::max(firing.start + Cycles(stage.latency_), stage.last_write_ + Cycles(1));
+    bool known = true;
+    for (const StreamBase* stream : stage.outputs_.of_mask[firing.produce]) {
+      known = known && stream->write_date_known();
+      if (known && stream->writable_at() > written) return false;
+    }
+    if (!known) {
+      for (StreamBase* stream : stage.outputs_.of_mask[firing.produce]) {
+        if (!stream->write_date_known()) stream->wait_for_room();
+      }
+      return true;
+    }
+    firing.left = written;
+    firing.by_memory = false;
+    ++stage.left_;
+    for (StreamBase* stream : stage.outputs_.of_mask[firing.produce]) stream->mark_written(written, Cycles(0));
+    stage.note_write(stage.frames_[firing.frame], written);
+    member.last_event_write = written;
+  }
+  return true;
+}
+
+Leap::Check Leap::check(Member& member, Event& event) {
   const Stage& stage = *member.stage;
   const Cycles free = free_before(member, event.firing);
   const Cycles written = start_of(member, event.firing) + Cycles(stage.latency_);
@@ -498,19 +542,27 @@ Leap::Check Leap::check(Member& member, const Event& event) {
     }
     if (stream.forward(stream.write_date(token)) > free) return Check::kLate;
   }
+  bool pending = false;
   if (event.produce != 0) {
     if (stage.latency_ > 0 && member.last_event_write > free) return Check::kLate;
+    pending = stage.entered_ != stage.left_ || member.claimed_pending != 0;
     for (const int l : member.out) {
-      Link& link = links_[static_cast<std::size_t>(l)];
-      if (link.core || !contains(event.produce, link.writer_port)) continue;
-      StreamBase& stream = *link.stream;
-      if (!stream.write_date_known(link.claimed_writes)) {
-        stream.wait_for_room();
-        return Check::kUnknown;
+      const Link& link = links_[static_cast<std::size_t>(l)];
+      if (link.core || !contains(event.produce, link.writer_port) || pending) continue;
+      if (!link.stream->write_date_known(link.claimed_writes)) {
+        pending = true;
+        link.stream->wait_for_room();
+      } else if (link.stream->writable_at(link.claimed_writes) > (stage.latency_ == 0 ? free : written)) {
+        return Check::kLate;
       }
-      if (stream.writable_at(link.claimed_writes) > (stage.latency_ == 0 ? free : written)) return Check::kLate;
     }
-    member.last_event_write = written;
+    // Where it is not known when there will be room, the firing can wait in the pipeline.
+    if (pending && stage.entered_ - stage.left_ + member.claimed_pending >= stage.latency_) return Check::kUnknown;
+    if (pending) {
+      ++member.claimed_pending;
+    } else {
+      member.last_event_write = written;
+    }
   }
   for (const int l : member.in) {
     Link& link = links_[static_cast<std::size_t>(l)];
@@ -518,8 +570,9 @@ Leap::Check Leap::check(Member& member, const Event& event) {
   }
   for (const int l : member.out) {
     Link& link = links_[static_cast<std::size_t>(l)];
-    if (!link.core && contains(event.produce, link.writer_port)) ++link.claimed_writes;
+    if (!link.core && !pending && contains(event.produce, link.writer_port)) ++link.claimed_writes;
   }
+  event.pending = pending;
   return Check::kInTime;
 }
 
@@ -536,7 +589,8 @@ std::uint64_t Leap::possible_periods(Link& link, std::uint64_t wanted) {
     const std::uint64_t end = std::min(link.base_read + (periods_ + periods) * link.reads, link.base_written);
     for (; link.sure_reads < end; ++link.sure_reads) {
       const std::uint64_t pass = (link.sure_reads - link.base_read) / link.reads;
-      const Cycles needed = stream.read_watch_.first + Cycles(period_ * as_signed(pass + 1));
+      const std::uint64_t place = (link.sure_reads - link.base_read) % link.reads;
+      const Cycles needed = stream.read_watch_.ready[place] + Cycles(period_ * as_signed(pass + 1));
       if (stream.forward(stream.write_date(link.sure_reads)) > needed) {
         periods = std::min(periods, pass - periods_);
         break;
@@ -551,7 +605,8 @@ std::uint64_t Leap::possible_periods(Link& link, std::uint64_t wanted) {
     for (; link.sure_writes < end; ++link.sure_writes) {
       if (link.sure_writes < stream.depth()) continue;
       const std::uint64_t pass = (link.sure_writes - link.base_written) / link.writes;
-      const Cycles needed = stream.write_watch_.first + Cycles(period_ * as_signed(pass + 1));
+      const std::uint64_t place = (link.sure_writes - link.base_written) % link.writes;
+      const Cycles needed = stream.write_watch_.ready[place] + Cycles(period_ * as_signed(pass + 1));
       if (stream.backward(stream.read_date(link.sure_writes - stream.depth())) > needed) {
         periods = std::min(periods, pass - periods_);
         break;
@@ -575,15 +630,19 @@ void Leap::commit_events(Member& member, std::uint64_t until) {
     }
     if (event.produce == 0) continue;
     const Cycles written = start + Cycles(stage.latency_);
+    stage.pipe_[stage.entered_++ & stage.pipe_mask_] = {start, written, event.produce, false,
+                                                        static_cast<std::uint32_t>(stage.frames_.size() - 1)};
+    if (event.pending) {
+      --member.claimed_pending;
+      continue;
+    }
+    stage.left_ = stage.entered_;
     for (const int l : member.out) {
       Link& link = links_[static_cast<std::size_t>(l)];
       if (link.core || !contains(event.produce, link.writer_port)) continue;
       --link.claimed_writes;
       link.stream->mark_written(written, Cycles(0));
     }
-    stage.pipe_[stage.entered_++ & stage.pipe_mask_] = {start, written, event.produce, false,
-                                                        static_cast<std::uint32_t>(stage.frames_.size() - 1)};
-    stage.left_ = stage.entered_;
     stage.note_write(stage.frames_.back(), written);
   }
 }
@@ -714,7 +773,7 @@ void Leap::release() {
   for (Member& member : members_) {
     if (member.active && !member.takes_part) continue;
     dataflow_.release(*member.stage);
-    member.seen_firings = member.stage->statistics_.firings;
+    member.looks_still = 0;
   }
 }
 
@@ -726,9 +785,9 @@ sc_core::sc_time Leap::due() const {
     if (!member.active || !member.takes_part) continue;
     const Stage& stage = *member.stage;
     first = std::min(first, stage.free_ + later);
-    if (member.writes != 0 && stage.entered_ != stage.left_) {
+    if (stage.entered_ != stage.left_) {
       const Cycles leaves = stage.pipe_[stage.left_ & stage.pipe_mask_].start + Cycles(stage.latency_);
-      first = std::min(first, std::max(leaves, stage.last_write_ + Cycles(1)) + later);
+      first = std::min(first, std::max(leaves, stage.last_write_ + Cycles(1)) + (member.writes != 0 ? later : Cycles(0)));
     }
   }
   return clock_.time_of(std::max(Cycles(0), first - Cycles(1)));

@@ -74,13 +74,15 @@ class Leap {
     std::uint64_t firing;
     PortMask consume, produce;
     bool checked;
+    bool pending;  // it is not known when there is room for what it writes
   };
   struct Member {
     Stage* stage;
     std::vector<int> in, out;  // links
     bool takes_part = false;   // has a core port
     bool active = false;
-    std::uint64_t seen_firings = 0;
+    std::uint64_t seen_firings = 0;  // at the last look
+    int looks_still = 0;             // looks in a row since it moved
     // The pattern: firings of a unit, and what all of them have in common.
     std::uint64_t unit = 1;
     PortMask core_in = 0, core_out = 0;
@@ -99,7 +101,8 @@ class Leap {
     std::uint64_t entered_before = 0, left_before = 0;
     Cycles free_before, last_write_before;
     std::size_t frames_before = 0;
-    Cycles last_event_write{-1};  // of the checked events
+    Cycles last_event_write{-1};        // of the checked events whose date is known
+    std::uint64_t claimed_pending = 0;  // checked events that will wait in the pipeline
   };
 
   bool classify();
@@ -115,7 +118,8 @@ class Leap {
   bool extend();
   void scan(Member& member);
   std::uint64_t possible_firings(Member& member, bool& outside);
-  Check check(Member& member, const Event& event);
+  Check check(Member& member, Event& event);
+  bool write_pending(Member& member);
   std::uint64_t possible_periods(Link& link, std::uint64_t wanted);
   void commit_events(Member& member, std::uint64_t until);
   Cycles start_of(const Member& member, std::uint64_t firing) const;
@@ -133,6 +137,7 @@ class Leap {
   std::vector<Link> links_;
   std::vector<Cycles> model_;  // dates of one period; a member for its memory only
   bool holding_ = false;
+  bool wide_ = false;
   bool release_asked_ = false;
   bool waits_outside_ = false;  // the last extend() stopped at something that is not known yet
   std::int64_t period_ = 0;     // T, in cycles

@@ -150,14 +150,17 @@ class StreamBase : public sc_core::sc_prim_channel, public virtual sc_core::sc_i
   friend class Leap;
   friend class Stage;
   struct Watch {  // what Leap wants to know of one period
-    bool any = false;
-    bool binds = false;  // a date of this stream held its reader (writer) back
-    Cycles first;        // when the reader (writer) was first ready, whatever this stream's date
+    bool binds = false;         // a date of this stream held its reader (writer) back
+    std::vector<Cycles> ready;  // when the reader (writer) was ready for each token, whatever this stream's date
+    void reset() {
+      binds = false;
+      ready.clear();
+    }
   };
   void watch_read(Cycles ready) { note(read_watch_, ready, readable_at()); }
   void watch_write(Cycles ready) { note(write_watch_, ready, writable_at()); }
   static void note(Watch& watch, Cycles ready, Cycles date) {
-    if (!std::exchange(watch.any, true)) watch.first = ready;
+    watch.ready.push_back(ready);
     watch.binds = watch.binds || date > ready;
   }
   Cycles write_date(std::uint64_t token) const { return write_dates_[token & mask_]; }
