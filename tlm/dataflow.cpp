@@ -80,6 +80,12 @@ bool Dataflow::step() {
   return true;
 }
 
+void Dataflow::bring_up_to_date() const {
+  for (const auto& leap : leaps_) {
+    if (leap->holding()) leap->materialize();
+  }
+}
+
 void Dataflow::drain() {
   while (step()) continue;
 }

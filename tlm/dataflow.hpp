@@ -59,6 +59,8 @@ class Dataflow final : public sc_core::sc_module {
   void add(StreamBase& stream) { streams_.push_back(&stream); }
   void add(Stage& stage) { stages_.push_back(&stage); }
   void count_firings(std::uint64_t count) { firings_ += count; }
+  /// Brings what stages and streams say of themselves up to what is known.
+  void bring_up_to_date() const;
   const std::vector<StreamBase*>& streams() const { return streams_; }
 
   /// The closed chain of waits when the simulation has run dry, else empty. Each wait's `other` is the next

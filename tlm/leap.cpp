@@ -132,12 +132,12 @@ bool Leap::find_unit(Member& member, PortMask& mixed_in, PortMask& mixed_out) {
   member.events.clear();
   member.common = phases[stage.next_.phase];
   member.unit = 1;
-  if (std::all_of(phases, phases + segment.phase_count, [&](const Phase& phase) {
-        return same_in(phase, member.common, member.core_in, member.core_out);
-      })) {
-    return true;
-  }
   if (segment.repeat > 1) {
+    if (std::all_of(phases, phases + segment.phase_count, [&](const Phase& phase) {
+          return same_in(phase, member.common, member.core_in, member.core_out);
+        })) {
+      return true;
+    }
     if (segment.repeat - stage.next_.pass < 3) return false;
     member.unit = 0;
     PortMask consume = 0;
@@ -225,6 +225,7 @@ bool Leap::observe() {
     Stage& stage = *member.stage;
     if (!member.active) {
       same = same && !stage.can_fire() && stage.left_ == member.left_before;
+      if (same) stage.advance();  // says which streams it waits for
     } else if (member.takes_part) {
       member.base = stage.statistics_.firings;
       member.last_event_write = stage.last_write_;
@@ -398,7 +399,6 @@ bool Leap::go_on(bool eager) {
   const bool is_due = due() <= sc_core::sc_time_stamp();
   if (!eager && !is_due) return false;
   if (extend()) return true;
-  if (waits_outside_) materialize();
   if (!waits_outside_ || due() <= sc_core::sc_time_stamp()) {
     release();
     return true;
@@ -658,7 +658,7 @@ Cycles Leap::free_before(const Member& member, std::uint64_t firing) const {
   return member.observed[since % member.firings].free + Cycles(period_ * as_signed(since / member.firings + 1));
 }
 
-// Brings the state of stages and streams up to where the leap has come.
+
 void Leap::materialize() {
   const std::uint64_t periods = periods_ - materialized_;
   if (periods == 0) return;
@@ -680,7 +680,7 @@ void Leap::materialize(Member& member, std::uint64_t periods) {
   stage.free_ += later;
   stage.statistics_.add(member.delta, as_signed(periods));
   const std::uint64_t last = stage.statistics_.firings;
-  for (std::uint64_t i = std::max(first, last - std::min<std::uint64_t>(last, Stage::kStartsKept)); i < last; ++i) {
+  for (std::uint64_t i = std::max(first, last - std::min(last, 2 * kLargestUnit)); i < last; ++i) {
     stage.starts_[i % Stage::kStartsKept] = start_of(member, i);
   }
   stage.frames_.back().last_firing += later;

@@ -43,6 +43,8 @@ class Leap {
   bool go_on(bool eager);
   /// The date before which go_on() must be called again. Everything before it is known.
   sc_core::sc_time due() const;
+  /// Brings the state of stages and streams up to where the leap has come.
+  void materialize();
   /// A stage that took no part could go on now: the leap ends.
   void ask_for_release() { release_asked_ = true; }
 
@@ -125,7 +127,6 @@ class Leap {
   Cycles start_of(const Member& member, std::uint64_t firing) const;
   Cycles free_before(const Member& member, std::uint64_t firing) const;
 
-  void materialize();
   void materialize(Member& member, std::uint64_t periods);
   void materialize(Link& link, std::uint64_t periods);
   void release();

@@ -229,7 +229,7 @@ void Stage::skip(Position& position, std::uint64_t firings) const {
   while (firings > 0) {
     const Schedule::Segment& segment = schedule_.segments()[position.segment];
     const Phase* phases = schedule_.phases().data() + segment.first_phase;
-    if (position.phase == 0 && position.count == 0) {
+    if (position.phase == 0 && position.count == 0 && segment.repeat > 1) {
       std::uint64_t pass = 0;
       for (std::uint32_t i = 0; i < segment.phase_count; ++i) pass += phases[i].count;
       const std::uint64_t passes = std::min(firings / pass, segment.repeat - position.pass);

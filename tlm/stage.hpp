@@ -68,9 +68,15 @@ class Stage : public sc_core::sc_module, public Actor {
   const ClockDomain& clock() const { return clock_; }
   std::uint32_t latency() const { return latency_; }
   const Schedule& schedule() const { return schedule_; }
-  const StageStatistics& statistics() const { return statistics_; }
+  const StageStatistics& statistics() const {
+    dataflow_.bring_up_to_date();
+    return statistics_;
+  }
   /// One entry a frame whose first firing is known; the last one may be unfinished.
-  const std::vector<FrameDates>& frames() const { return frames_; }
+  const std::vector<FrameDates>& frames() const {
+    dataflow_.bring_up_to_date();
+    return frames_;
+  }
   /// The streams at input (output) port `port`, in order of binding; after elaboration.
   std::vector<const StreamBase*> input_streams(unsigned port) const { return at_port(inputs_, port); }
   std::vector<const StreamBase*> output_streams(unsigned port) const { return at_port(outputs_, port); }

@@ -70,11 +70,13 @@ class StreamBase : public sc_core::sc_prim_channel, public virtual sc_core::sc_i
   const ClockDomain& reader_clock() const { return reader_clock_; }
   bool at_memory() const { return config_.at_memory; }
   const StreamStatistics& statistics() const {
+    dataflow_.bring_up_to_date();
     settle();
     return statistics_;
   }
   /// How full the FIFO was, as its writer sees it: a place counts from the write on until it can be written again.
   const Occupancy& occupancy() const {
+    dataflow_.bring_up_to_date();
     settle();
     return occupancy_;
   }
