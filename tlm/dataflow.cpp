@@ -86,6 +86,13 @@ void Dataflow::bring_up_to_date() const {
   }
 }
 
+std::uint64_t Dataflow::leaped_firings() const {
+  bring_up_to_date();
+  std::uint64_t firings = 0;
+  for (const auto& leap : leaps_) firings += leap->leaped_firings();
+  return firings;
+}
+
 void Dataflow::drain() {
   while (step()) continue;
 }
@@ -109,7 +116,7 @@ void Dataflow::run() {
     for (const auto& leap : leaps_) {
       if (leap->holding() && leap->go_on(eager)) moved = eager = true;
     }
-    if (!moved) break;
+    if (!moved && ready_.empty()) break;
   }
   notified_ = false;
   for (const auto& leap : leaps_) {

@@ -62,6 +62,9 @@ class Dataflow final : public sc_core::sc_module {
   /// Brings what stages and streams say of themselves up to what is known.
   void bring_up_to_date() const;
   const std::vector<StreamBase*>& streams() const { return streams_; }
+  const std::vector<Stage*>& stages() const { return stages_; }
+  /// Firings that leaps have gone over, of those that statistics count.
+  std::uint64_t leaped_firings() const;
 
   /// The closed chain of waits when the simulation has run dry, else empty. Each wait's `other` is the next
   /// one's `waiter`. A chain that ends at somebody who does not wait is no deadlock and is not returned.

@@ -679,6 +679,7 @@ void Leap::materialize(Member& member, std::uint64_t periods) {
   if (stage.next_.segment == stage.schedule_.segments().size()) stage.next_ = {};
   stage.free_ += later;
   stage.statistics_.add(member.delta, as_signed(periods));
+  leaped_firings_ += periods * member.firings;
   const std::uint64_t last = stage.statistics_.firings;
   for (std::uint64_t i = std::max(first, last - std::min(last, 2 * kLargestUnit)); i < last; ++i) {
     stage.starts_[i % Stage::kStartsKept] = start_of(member, i);

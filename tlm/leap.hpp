@@ -47,6 +47,8 @@ class Leap {
   void materialize();
   /// A stage that took no part could go on now: the leap ends.
   void ask_for_release() { release_asked_ = true; }
+  /// Firings gone over so far.
+  std::uint64_t leaped_firings() const { return leaped_firings_; }
 
  private:
   struct Link {
@@ -144,6 +146,7 @@ class Leap {
   std::int64_t period_ = 0;     // T, in cycles
   std::uint64_t periods_ = 0;   // gone through since observe()
   std::uint64_t materialized_ = 0;
+  std::uint64_t leaped_firings_ = 0;
 };
 
 }  // namespace parallax

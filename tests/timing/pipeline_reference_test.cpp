@@ -22,9 +22,10 @@ struct Outcome {
 
 Outcome compare(Depths depths) {
   const PipelineCase c = random_pipeline(depths, kFrames);
+  const auto leap_interval = *rc::gen::element<std::uint64_t>(1, 50, Dataflow::kLeapInterval);
   Outcome outcome;
   outcome.differences = in_child([&] {
-    PipelineSimulation simulation(c);
+    PipelineSimulation simulation(c, leap_interval);
     const std::vector<EdgeDates> actual = simulation.run();
     const Graph graph = simulation.graph();
     const std::vector<EdgeDates> expected = ReferenceSimulation(graph).run();

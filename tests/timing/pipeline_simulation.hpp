@@ -40,10 +40,10 @@ struct PipelineBursts {
 
 class PipelineSimulation {
  public:
-  explicit PipelineSimulation(const PipelineCase& c)
+  explicit PipelineSimulation(const PipelineCase& c, std::uint64_t leap_interval = Dataflow::kLeapInterval)
       : case_(c),
         clock_("core", Hertz(c.config.clocks.core_hz)),
-        dataflow_("dataflow"),
+        dataflow_("dataflow", leap_interval),
         pipeline_("pipeline", case_.config, case_.map, {clock_, dataflow_, c.map.width, c.map.height}),
         left_node_(end(GraphNode::Kind::kSource, c.left)),
         right_node_(end(GraphNode::Kind::kSource, c.right)),

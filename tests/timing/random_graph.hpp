@@ -11,7 +11,8 @@ namespace parallax::test {
 
 class RandomGraph {
  public:
-  static Graph make() { return RandomGraph().build(); }
+  /// `longer`: times as many pixels.
+  static Graph make(int longer = 1) { return RandomGraph().build(longer); }
 
  private:
   struct Open {  // an output that has no reader yet
@@ -21,9 +22,9 @@ class RandomGraph {
 
   static int number(int low, int high) { return *rc::gen::inRange(low, high + 1); }
 
-  Graph build() {
+  Graph build(int longer) {
     width_ = number(1, 16);
-    pixels_ = width_ * number(1, 12);
+    pixels_ = width_ * number(1, 12) * longer;
     frames_ = number(1, 2);
     const int clocks = number(0, 3) == 0 ? number(2, 3) : 1;
     graph_.periods.clear();

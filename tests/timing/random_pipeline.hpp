@@ -44,12 +44,12 @@ inline DmaPortConfig random_port() {
   return port;
 }
 
-/// `frames` frames of a small image.
-inline PipelineCase random_pipeline(Depths depths, std::uint64_t frames) {
+/// `frames` frames of a small image, `larger` times as wide and high.
+inline PipelineCase random_pipeline(Depths depths, std::uint64_t frames, int larger = 1) {
   PipelineCase c;
   MachineConfig& config = c.config;
-  const int width = number(1, 48);
-  const int height = number(1, 16);
+  const int width = number(1, 48) * larger;
+  const int height = number(1, 16) * larger;
   config.rectification.range.window = 2 * number(0, 4) + 1;
   config.census.window_width = 2 * number(1, 3) + 1;
   config.census.window_height = 2 * number(0, 3) + 1;

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+// Leaps over periodic motion change nothing: every date and every statistic is that of going firing by firing.
+#include "tlm/leap.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <sstream>
+
+#include "tests/timing/in_child.hpp"
+#include "tests/timing/model_simulation.hpp"
+#include "tests/timing/pipeline_simulation.hpp"
+#include "tests/timing/random_graph.hpp"
+#include "tests/timing/random_pipeline.hpp"
+#include "tests/timing/reference_simulation.hpp"
+#include "tests/timing/statistics_text.hpp"
+
+namespace parallax::test {
+namespace {
+
+template <class Simulation>
+std::string outcome(Simulation& simulation) {
+  std::string text;
+  const std::vector<EdgeDates> dates = simulation.run();
+  for (const StreamBase* stream : simulation.dataflow().streams()) text += statistics_text(*stream);
+  for (const Stage* stage : simulation.dataflow().stages()) text += statistics_text(*stage);
+  for (const Wait& wait : simulation.dataflow().waits()) text += fmt::format("{} {} waits\n", wait.waiter, wait.on_full);
+  for (const EdgeDates& edge : dates) {
+    for (const std::int64_t date : edge.written) text += fmt::format("{} ", date);
+    text += "| ";
+    for (const std::int64_t date : edge.read) text += fmt::format("{} ", date);
+    text += "\n";
+  }
+  return text;
+}
+
+std::string first_difference(const std::string& expected, const std::string& actual) {
+  std::istringstream a(expected), b(actual);
+  std::string x, y;
+  while (std::getline(a, x) && std::getline(b, y)) {
+    if (x != y) return fmt::format("expected {}\nhave     {}\n", x.substr(0, 2000), y.substr(0, 2000));
+  }
+  return "";
+}
+
+RC_GTEST_PROP(Leap, ChangesNothingInRandomGraphs, ()) {
+  const Graph graph = RandomGraph::make(8);
+  const auto threads = *rc::gen::arbitrary<std::uint64_t>();
+  const auto interval = *rc::gen::element<std::uint64_t>(1, 10, 40, 200);
+  const auto run = [&](std::uint64_t leap_interval) {
+    return in_child([&] {
+      ModelSimulation simulation(graph, threads, leap_interval);
+      return outcome(simulation);
+    });
+  };
+  const std::string difference = first_difference(run(0), run(interval));
+  if (!difference.empty()) {
+    std::ostringstream description;
+    description << difference << "threads " << threads << " leap interval " << interval << graph;
+    RC_FAIL(description.str());
+  }
+}
+
+RC_GTEST_PROP(Leap, ChangesNothingInThePipeline, ()) {
+  const PipelineCase c = random_pipeline(Depths::kAutomatic, 2, 8);
+  const auto run = [&](std::uint64_t leap_interval) {
+    return in_child([&] {
+      PipelineSimulation simulation(c, leap_interval);
+      return outcome(simulation);
+    });
+  };
+  const std::string difference = first_difference(run(0), run(*rc::gen::element<std::uint64_t>(50, 600)));
+  if (!difference.empty()) RC_FAIL(difference);
+}
+
+// source -> stage -> stage -> sink, all actors, `tokens` of them.
+Graph chain(std::uint32_t tokens, std::uint32_t interval, std::uint32_t latency, std::uint32_t depth) {
+  Graph graph;
+  GraphNode stage;
+  stage.parts = {{tokens, {{1, 1, 1, 1}}}};
+  stage.latency = latency;
+  GraphNode slow = stage;
+  slow.parts = {{tokens, {{1, interval, 1, 1}}}};
+  GraphNode source, sink;
+  source.kind = GraphNode::Kind::kSource;
+  sink.kind = GraphNode::Kind::kSink;
+  source.stalls.assign(tokens, 0);
+  sink.stalls.assign(tokens, 0);
+  graph.nodes = {source, stage, slow, sink};
+  graph.edges = {{0, 0, 1, 0, depth}, {1, 0, 2, 0, depth}, {2, 0, 3, 0, depth}};
+  return graph;
+}
+
+TEST(Leap, GoesThroughMostOfARegularChain) {
+  constexpr std::uint32_t kTokens = 20000;
+  ModelSimulation simulation(chain(kTokens, 3, 5, 16), 0);
+  const std::vector<EdgeDates> dates = simulation.run();
+  // A token into the FIFO a cycle, one out of the slow stage every third.
+  EXPECT_EQ(dates[2].read.back(), 1 + 1 + 5 + 1 + 5 + 3 * (std::int64_t{kTokens} - 1));
+  EXPECT_GT(simulation.dataflow().leaped_firings(), 4 * kTokens * 9 / 10);
+}
+
+TEST(Leap, CanBeSwitchedOff) {
+  ModelSimulation simulation(chain(5000, 3, 5, 16), 0, 0);
+  simulation.run();
+  EXPECT_EQ(simulation.dataflow().leaped_firings(), 0u);
+}
+
+}  // namespace
+}  // namespace parallax::test
