@@ -229,6 +229,10 @@ void Stage::skip(Position& position, std::uint64_t firings) const {
   while (firings > 0) {
     const Schedule::Segment& segment = schedule_.segments()[position.segment];
     const Phase* phases = schedule_.phases().data() + segment.first_phase;
+    if (position.count + firings < phases[position.phase].count) {
+      position.count += static_cast<std::uint32_t>(firings);
+      return;
+    }
     if (position.phase == 0 && position.count == 0 && segment.repeat > 1) {
       std::uint64_t pass = 0;
       for (std::uint32_t i = 0; i < segment.phase_count; ++i) pass += phases[i].count;
