@@ -12,6 +12,7 @@ namespace parallax {
 namespace {
 
 constexpr std::uint32_t kLargestDepth = 1u << 24;
+constexpr std::uint32_t kMostStages = 8;
 
 // Beyond the depth, a ring holds the dates that settle() has not counted yet, and the history in which periodic motion
 // is recognised.
@@ -23,13 +24,34 @@ std::uint64_t ring_mask(std::uint32_t depth) {
   return size - 1;
 }
 
-const FifoConfig& checked(const char* name, const FifoConfig& config) {
+// The configuration with the offsets of its kind.
+FifoConfig checked(const char* name, FifoConfig config, const ClockDomain& writer, const ClockDomain& reader) {
   if (config.depth < 1 || config.depth > kLargestDepth) {
     throw UserError(
         fmt::format("stream '{}': depth {} is outside 1 to {} tokens", name, config.depth, kLargestDepth));
   }
-  if (config.write_to_read < 1 || config.read_to_write < 1) {
-    throw UserError(fmt::format("stream '{}': a registered FIFO needs at least 1 cycle each way", name));
+  const bool one_clock = &writer == &reader;
+  if (config.kind != FifoKind::kFree) {
+    if (config.write_to_read != 1 || config.read_to_write != 1) {
+      throw UserError(fmt::format("stream '{}': a FIFO of kind {} has offsets of its own, none can be given", name,
+                                  name_of(config.kind)));
+    }
+    if (config.kind != FifoKind::kAsynchronous && !one_clock) {
+      throw UserError(
+          fmt::format("stream '{}': a FIFO of kind {} cannot stand between the clocks '{}' and '{}'; an "
+                      "asynchronous one can",
+                      name, name_of(config.kind), writer.name(), reader.name()));
+    }
+    if (config.synchroniser_stages < 1 || config.synchroniser_stages > kMostStages) {
+      throw UserError(fmt::format("stream '{}': {} synchroniser stages are outside 1 to {}", name,
+                                  config.synchroniser_stages, kMostStages));
+    }
+    const FifoOffsets offsets = offsets_of(config.kind, config.synchroniser_stages);
+    config.write_to_read = offsets.write_to_read;
+    config.read_to_write = offsets.read_to_write;
+  } else if ((config.write_to_read == 0 || config.read_to_write == 0) && !one_clock) {
+    throw UserError(fmt::format("stream '{}': an offset of 0 cycles cannot be kept between the clocks '{}' and '{}'",
+                                name, writer.name(), reader.name()));
   }
   return config;
 }
@@ -39,7 +61,7 @@ const FifoConfig& checked(const char* name, const FifoConfig& config) {
 StreamBase::StreamBase(const char* name, Dataflow& dataflow, const ClockDomain& writer_clock,
                        const ClockDomain& reader_clock, const FifoConfig& config)
     : sc_prim_channel(name),
-      config_(checked(name, config)),
+      config_(checked(name, config, writer_clock, reader_clock)),
       dataflow_(dataflow),
       writer_clock_(writer_clock),
       reader_clock_(reader_clock),
@@ -84,7 +106,8 @@ void StreamBase::wake_reader() {
 }
 
 // Goes through writes and reads in the order in which they change the level. A date counts once it is certain that
-// nothing unknown can come before it: each side's next date is later than its last one.
+// nothing unknown can come before it: each side's next date is later than its last one. With both offsets 0 a token may
+// free its place in the cycle that writes it; the level is then one too low, but for no time.
 void StreamBase::settle() const {
   std::uint64_t level = settled_writes_ - freed_;
   for (;;) {

@@ -10,6 +10,7 @@
 
 #include "tlm/clock_domain.hpp"
 #include "tlm/dataflow.hpp"
+#include "tlm/fifo_kind.hpp"
 #include "tlm/occupancy.hpp"
 #include "tlm/units.hpp"
 
@@ -17,14 +18,16 @@ namespace parallax {
 
 /// A bounded FIFO between two stages.
 struct FifoConfig {
-  std::uint32_t depth = 2;  ///< tokens, 1 to 2^24
+  std::uint32_t depth = 2;  ///< tokens in all, output registers included; 1 to 2^24
   Bits width{8};            ///< of one token
-  /// Edges of the reader's clock after the writing edge until the token can be read; 1 = registered FIFO. A
-  /// clock crossing adds its synchroniser stages.
+  /// For kind kFree, else left alone: edges of the reader's clock from the writing edge until the token can be
+  /// read. 1 = registered; 0 = in the same cycle, where both sides have one clock.
   std::uint32_t write_to_read = 1;
-  /// Edges of the writer's clock after the reading edge until the freed place can be written; 1 = registered
-  /// FIFO.
+  /// For kind kFree, else left alone: edges of the writer's clock from the reading edge until the freed place can
+  /// be written. 1 = registered; 0 = in the same cycle, where both sides have one clock.
   std::uint32_t read_to_write = 1;
+  FifoKind kind = FifoKind::kFree;        ///< which circuit; fifo_kind.hpp states the rule of each
+  std::uint32_t synchroniser_stages = 2;  ///< registers that a pointer passes, for kind kAsynchronous; 1 to 8
   /// One end is a memory port: who waits here waits for the memory (StageStatistics::memory).
   bool at_memory = false;
 };
@@ -51,11 +54,14 @@ class StreamListener {
 /// The time side of a stream: when token i was written and read.
 ///
 /// Contract: token i cannot be read before `write_to_read` reader edges after the edge that wrote it, nor
-/// written before `read_to_write` writer edges after the edge that read token i - depth. One token a cycle
-/// each way. Dates are handed in once, in order, as soon as they are known, which may be long before kernel
+/// written before `read_to_write` writer edges after the edge that read token i - depth; both follow from the
+/// kind of FIFO (fifo_kind.hpp). One token a cycle each way. Dates are handed in once, in order, as soon as they are known, which may be long before kernel
 /// time gets there.
 class StreamBase : public sc_core::sc_prim_channel, public virtual sc_core::sc_interface {
  public:
+  /// Throws UserError, naming the stream, when a number is out of its range, when a kind for one clock is put
+  /// between two, or an offset of 0 is, or when offsets are given to a kind that has its own. Clocks are two
+  /// when they are two objects, of whatever frequencies.
   StreamBase(const char* name, Dataflow& dataflow, const ClockDomain& writer_clock,
              const ClockDomain& reader_clock, const FifoConfig& config);
   StreamBase(const StreamBase&) = delete;
@@ -63,6 +69,8 @@ class StreamBase : public sc_core::sc_prim_channel, public virtual sc_core::sc_i
 
   const char* kind() const override { return "parallax::Stream"; }
 
+  /// As built: the offsets are those of the kind.
+  const FifoConfig& config() const { return config_; }
   std::uint32_t depth() const { return config_.depth; }
   Bits width() const { return config_.width; }
   Bits storage() const { return config_.width * config_.depth; }

@@ -34,6 +34,21 @@ struct GraphEdge {
   std::uint32_t depth = 1;
   std::uint32_t write_to_read = 1;
   std::uint32_t read_to_write = 1;
+  /// How the model is told of the offsets; the reference goes by the offsets themselves.
+  FifoKind kind = FifoKind::kFree;
+  std::uint32_t synchroniser_stages = 2;
+
+  /// Sets the kind and, from the tests' own table of rules, the offsets.
+  GraphEdge& of_kind(FifoKind k, std::uint32_t stages = 2) {
+    kind = k;
+    synchroniser_stages = stages;
+    write_to_read = k == FifoKind::kFirstWordFallThrough ? 0
+                    : k == FifoKind::kBlockRam           ? 2
+                    : k == FifoKind::kAsynchronous       ? stages + 1
+                                                         : 1;
+    read_to_write = k == FifoKind::kAsynchronous ? stages + 1 : 1;
+    return *this;
+  }
 };
 
 struct Graph {
@@ -78,7 +93,7 @@ inline std::ostream& operator<<(std::ostream& out, const Graph& graph) {
   }
   for (const GraphEdge& e : graph.edges) {
     out << "\n  edge " << e.from << "." << e.from_port << " -> " << e.to << "." << e.to_port << " depth "
-        << e.depth << " +" << e.write_to_read << " +" << e.read_to_write;
+        << e.depth << " +" << e.write_to_read << " +" << e.read_to_write << " " << name_of(e.kind);
   }
   return out;
 }

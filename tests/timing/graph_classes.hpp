@@ -21,6 +21,22 @@ inline bool crosses_clocks(const Graph& graph) {
   return false;
 }
 
+/// Whether some FIFO lets a token or a place through in the same cycle.
+inline bool passes_in_a_cycle(const Graph& graph) {
+  for (const GraphEdge& edge : graph.edges) {
+    if (edge.write_to_read == 0 || edge.read_to_write == 0) return true;
+  }
+  return false;
+}
+
+/// Whether a FIFO is named by its kind, a certain one.
+inline bool has_kind(const Graph& graph, FifoKind kind) {
+  for (const GraphEdge& edge : graph.edges) {
+    if (edge.kind == kind) return true;
+  }
+  return false;
+}
+
 /// Whether some stage reads before it first writes.
 inline bool looks_ahead(const Graph& graph) {
   for (const GraphNode& node : graph.nodes) {

@@ -50,7 +50,14 @@ class ModelSimulation {
       const auto to = static_cast<std::size_t>(edge.to);
       outputs[from] = std::max(outputs[from], edge.from_port + 1);
       inputs[to] = std::max(inputs[to], edge.to_port + 1);
-      const FifoConfig config{edge.depth, Bits(8), edge.write_to_read, edge.read_to_write};
+      FifoConfig config;
+      config.depth = edge.depth;
+      config.kind = edge.kind;
+      config.synchroniser_stages = edge.synchroniser_stages;
+      if (edge.kind == FifoKind::kFree) {
+        config.write_to_read = edge.write_to_read;
+        config.read_to_write = edge.read_to_write;
+      }
       streams_.push_back(std::make_unique<Stream<int>>(fmt::format("s{}", streams_.size()).c_str(), dataflow_,
                                                        clock(graph.nodes[from]), clock(graph.nodes[to]),
                                                        config));

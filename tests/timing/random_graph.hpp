@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Random graphs: chains, forks and joins that meet again, look-ahead in rows, changes of rate, depths 1 to
-// 4096, several clocks, random stalls at both ends. Some of them deadlock; that is part of what is compared.
+// 4096, all kinds of FIFO and other offsets, several clocks, random stalls at both ends. Some of them deadlock; that is part of what is compared.
 #pragma once
 
 #include <rapidcheck.h>
@@ -107,11 +107,34 @@ class RandomGraph {
         edge.depth = static_cast<std::uint32_t>(number(1, 4096));
         break;
     }
-    if (number(0, 5) == 0) {
-      edge.write_to_read = static_cast<std::uint32_t>(number(1, 4));
-      edge.read_to_write = static_cast<std::uint32_t>(number(1, 4));
-    }
+    fifo(edge);
     graph_.edges.push_back(edge);
+  }
+
+  // Half of the FIFOs are plain, a quarter of a kind, a quarter described by offsets.
+  void fifo(GraphEdge& edge) const {
+    const auto clock = [this](int node) { return graph_.nodes[static_cast<std::size_t>(node)].clock; };
+    const bool one_clock = clock(edge.from) == clock(edge.to);
+    switch (number(0, 3)) {
+      case 0:
+        if (!one_clock) {
+          edge.of_kind(FifoKind::kAsynchronous, static_cast<std::uint32_t>(number(1, 4)));
+        } else {
+          edge.of_kind(*rc::gen::element(FifoKind::kRegistered, FifoKind::kFirstWordFallThrough, FifoKind::kBlockRam,
+                                         FifoKind::kAsynchronous),
+                       static_cast<std::uint32_t>(number(1, 4)));
+        }
+        break;
+      case 1: {
+        const int least = one_clock ? 0 : 1;
+        const int most = number(0, 1) == 0 ? 1 : 4;  // offsets of 0 on several edges at a time shall be no rarity
+        edge.write_to_read = static_cast<std::uint32_t>(number(least, most));
+        edge.read_to_write = static_cast<std::uint32_t>(number(least, most));
+        break;
+      }
+      default:
+        break;
+    }
   }
 
   // A stage that reads 1 to 3 open outputs and writes 1 or 2, with its own rates and look-ahead.

@@ -2,6 +2,7 @@
 // Every date of the model equals the reference's, on random graphs. PARALLAX_GRAPHS says on how many.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstdlib>
 #include <iostream>
 #include <sstream>
@@ -16,6 +17,8 @@ namespace parallax::test {
 namespace {
 
 constexpr char kStuck = '!';
+constexpr std::array kKinds{FifoKind::kRegistered, FifoKind::kFirstWordFallThrough, FifoKind::kBlockRam,
+                            FifoKind::kAsynchronous};
 
 TEST(RandomGraph, EveryDateEqualsTheReference) {
   const char* asked = std::getenv("PARALLAX_GRAPHS");
@@ -24,7 +27,8 @@ TEST(RandomGraph, EveryDateEqualsTheReference) {
   params.maxSuccess = graphs;
   params.maxSize = 100;
   struct {
-    int stuck = 0, crossing = 0, ahead = 0, again = 0;
+    int stuck = 0, crossing = 0, ahead = 0, again = 0, at_once = 0;
+    std::array<int, kKinds.size()> kinds{};
   } met;
   const auto result = rc::detail::checkTestable(
       [&met] {
@@ -43,6 +47,8 @@ TEST(RandomGraph, EveryDateEqualsTheReference) {
         met.crossing += crosses_clocks(graph) ? 1 : 0;
         met.ahead += looks_ahead(graph) ? 1 : 0;
         met.again += meets_again(graph) ? 1 : 0;
+        met.at_once += passes_in_a_cycle(graph) ? 1 : 0;
+        for (std::size_t i = 0; i < kKinds.size(); ++i) met.kinds[i] += has_kind(graph, kKinds[i]) ? 1 : 0;
         if (!text.empty()) {
           std::ostringstream description;
           description << text << "threads " << threads << " leap interval " << leap_interval << graph;
@@ -53,7 +59,8 @@ TEST(RandomGraph, EveryDateEqualsTheReference) {
   std::ostringstream report;
   rc::detail::printResultMessage(result, report);
   std::cout << report.str() << "\nof " << graphs << " graphs " << met.stuck << " deadlock, " << met.crossing
-            << " cross clocks, " << met.ahead << " look ahead, " << met.again << " fork and meet again\n";
+            << " cross clocks, " << met.ahead << " look ahead, " << met.again << " fork and meet again, "
+            << met.at_once << " pass something in the same cycle\n";
   ASSERT_TRUE(result.template is<rc::detail::SuccessResult>()) << report.str();
   // A generator that no longer makes a kind of graph must not go unnoticed.
   if (graphs < 500) return;  // too few to tell
@@ -62,6 +69,8 @@ TEST(RandomGraph, EveryDateEqualsTheReference) {
   EXPECT_GT(met.crossing, graphs / 16);
   EXPECT_GT(met.ahead, graphs / 4);
   EXPECT_GT(met.again, graphs / 6);
+  EXPECT_GT(met.at_once, graphs / 4);
+  for (const int kind : met.kinds) EXPECT_GT(kind, graphs / 8);
 }
 
 }  // namespace

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The reference for every date: a plain simulation that goes through time edge by edge and moves one token at
 // a time through explicit registers, as the circuit does. It shares no code with the model.
+//
+// A FIFO may let a token or a place through in the same cycle. So the nodes are gone through, at one time, until none
+// moves any more: what a combinational path would settle to. A move never takes away what another one needs, each
+// token and each place having one taker, so the end does not depend on the order of the nodes. Nodes that wait for
+// each other within one cycle do not move.
 #pragma once
 
 #include <algorithm>
@@ -34,14 +39,21 @@ class ReferenceSimulation {
     for (const GraphEdge& edge : graph_.edges) longest += edge.write_to_read + edge.read_to_write;
     longest *= *std::max_element(graph_.periods.begin(), graph_.periods.end());
 
+    const bool combinational = std::any_of(graph_.edges.begin(), graph_.edges.end(), [](const GraphEdge& e) {
+      return e.write_to_read == 0 || e.read_to_write == 0;
+    });
     std::int64_t last_move = 0;
     for (std::int64_t time = 0; time - last_move <= longest; ++time) {
-      bool moved = false;
-      for (std::size_t i = 0; i < graph_.nodes.size(); ++i) {
-        const std::int64_t period = graph_.periods[static_cast<std::size_t>(graph_.nodes[i].clock)];
-        if (time % period == 0) moved |= edge(i, time, time / period);
+      for (bool again = true; again;) {
+        bool moved = false;
+        for (std::size_t i = 0; i < graph_.nodes.size(); ++i) {
+          const std::int64_t period = graph_.periods[static_cast<std::size_t>(graph_.nodes[i].clock)];
+          if (time % period == 0) moved |= edge(i, time, time / period);
+        }
+        if (moved) last_move = time;
+        again = moved && combinational;
       }
-      if (moved) last_move = time;
+      for (std::size_t e = 0; e < fifos_.size(); ++e) count_tokens(e, time);
     }
     std::vector<EdgeDates> dates;
     for (const Fifo& fifo : fifos_) dates.push_back(fifo.dates);
@@ -52,18 +64,23 @@ class ReferenceSimulation {
   struct Fifo {
     std::deque<std::int64_t> held;   // times of writing of the tokens not read
     std::deque<std::int64_t> freed;  // times of reading whose place is not writable yet
+    bool written = false;            // in the present cycle
     EdgeDates dates;
   };
   struct Firing {
     unsigned consume, produce;
     std::int64_t interval;
   };
+  struct Moving {  // a firing on its way through the pipeline
+    unsigned produce;
+    std::int64_t arrived;  // in its register; it moves on in a later cycle
+  };
   struct State {
     State(std::vector<Firing> f, const GraphNode& node) : firings(std::move(f)), registers(node.latency) {}
     std::vector<Firing> firings;  // of one frame
     std::size_t next = 0;
     std::int64_t busy_until = 0;
-    std::vector<std::optional<unsigned>> registers;  // produce masks travelling through the pipeline
+    std::vector<std::optional<Moving>> registers;  // the pipeline
     std::size_t tokens = 0;                          // source and sink
     std::int64_t ready = 0;
   };
@@ -127,17 +144,21 @@ class ReferenceSimulation {
   void write(int node, unsigned mask, std::int64_t time, std::int64_t cycle) {
     for (std::size_t e = 0; e < graph_.edges.size(); ++e) {
       if (graph_.edges[e].from != node || !((mask >> graph_.edges[e].from_port) & 1u)) continue;
-      has_room(e, time);  // forgets the places that are free by now
       fifos_[e].held.push_back(time);
       fifos_[e].dates.written.push_back(cycle);
-      // A place being read in this very cycle still counts: it is free from the next edge on only.
-      EdgeDates& dates = fifos_[e].dates;
-      dates.high_water = std::max(dates.high_water, fifos_[e].held.size() + fifos_[e].freed.size());
+      fifos_[e].written = true;
     }
   }
+  // At the end of a cycle. A place that was read in it still counts where it is free from a later edge on only.
+  void count_tokens(std::size_t e, std::int64_t time) {
+    Fifo& fifo = fifos_[e];
+    if (!fifo.written) return;
+    fifo.written = false;
+    has_room(e, time);  // forgets the places that are free by now
+    fifo.dates.high_water = std::max(fifo.dates.high_water, fifo.held.size() + fifo.freed.size());
+  }
 
-  // One clock edge of one node. Readiness depends on strictly earlier times only, so the order of nodes is
-  // free.
+  // What one node can do at one clock edge and has not done yet.
   bool edge(std::size_t i, std::int64_t time, std::int64_t cycle) {
     const GraphNode& node = graph_.nodes[i];
     const int id = static_cast<int>(i);
@@ -155,14 +176,16 @@ class ReferenceSimulation {
     bool moved = false;
     // The last register empties into the FIFOs, then each register moves into a free one after it.
     if (!s.registers.empty()) {
-      if (s.registers.back() && outputs_ready(id, *s.registers.back(), time)) {
-        write(id, *s.registers.back(), time, cycle);
-        s.registers.back().reset();
+      std::optional<Moving>& last = s.registers.back();
+      if (last && last->arrived < cycle && outputs_ready(id, last->produce, time)) {
+        write(id, last->produce, time, cycle);
+        last.reset();
         moved = true;
       }
       for (std::size_t r = s.registers.size() - 1; r > 0; --r) {
-        if (!s.registers[r] && s.registers[r - 1]) {
+        if (!s.registers[r] && s.registers[r - 1] && s.registers[r - 1]->arrived < cycle) {
           std::swap(s.registers[r], s.registers[r - 1]);
+          s.registers[r]->arrived = cycle;
           moved = true;
         }
       }
@@ -176,7 +199,7 @@ class ReferenceSimulation {
         if (direct) {
           write(id, firing.produce, time, cycle);
         } else {
-          s.registers.front() = firing.produce;
+          s.registers.front() = Moving{firing.produce, cycle};
         }
       }
       s.busy_until = cycle + firing.interval;
