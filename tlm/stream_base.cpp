@@ -11,8 +11,6 @@
 namespace parallax {
 namespace {
 
-constexpr std::uint32_t kLargestDepth = 1u << 24;
-
 std::uint64_t ring_mask(std::uint32_t depth) {
   std::uint64_t size = 1;
   while (size <= depth) size *= 2;  // one more than depth: settle_occupancy() looks one read further back
@@ -20,9 +18,9 @@ std::uint64_t ring_mask(std::uint32_t depth) {
 }
 
 const FifoConfig& checked(const char* name, const FifoConfig& config) {
-  if (config.depth < 1 || config.depth > kLargestDepth) {
-    throw UserError(
-        fmt::format("stream '{}': depth {} is outside 1 to {} tokens", name, config.depth, kLargestDepth));
+  if (config.depth < 1 || config.depth > StreamBase::kLargestDepth) {
+    throw UserError(fmt::format("stream '{}': depth {} is outside 1 to {} tokens", name, config.depth,
+                                StreamBase::kLargestDepth));
   }
   if (config.write_to_read < 1 || config.read_to_write < 1) {
     throw UserError(fmt::format("stream '{}': a registered FIFO needs at least 1 cycle each way", name));

@@ -51,6 +51,8 @@ class StreamListener {
 /// time gets there.
 class StreamBase : public sc_core::sc_prim_channel, public virtual sc_core::sc_interface {
  public:
+  static constexpr std::uint32_t kLargestDepth = 1u << 24;  // tokens
+
   StreamBase(const char* name, Dataflow& dataflow, const ClockDomain& writer_clock,
              const ClockDomain& reader_clock, const FifoConfig& config);
   StreamBase(const StreamBase&) = delete;
@@ -73,6 +75,9 @@ class StreamBase : public sc_core::sc_prim_channel, public virtual sc_core::sc_i
   void attach_reader(const std::string& module, Actor* actor);
   const std::string& writer_name() const { return writer_name_; }
   const std::string& reader_name() const { return reader_name_; }
+  /// nullptr for a thread in kernel time.
+  const Actor* writer() const { return writer_; }
+  const Actor* reader() const { return reader_; }
 
   // Reading, in cycles of the reader's clock.
 
