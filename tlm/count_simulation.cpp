@@ -33,37 +33,39 @@ void CountSimulation::add(const Participant& stage, const std::vector<const Stre
   };
   const Ports reads = looked_at(stage.inputs);
   const Ports writes = looked_at(stage.outputs);
-  bool writes_any = false;
-  for (const std::vector<std::size_t>& port : reads) {
-    for (const std::size_t stream : port) fifos_[stream].reader = id;
+  unsigned read = 0;  // ports that matter
+  unsigned written = 0;
+  for (std::size_t port = 0; port < reads.size(); ++port) {
+    for (const std::size_t stream : reads[port]) fifos_[stream].reader = id, read |= 1u << port;
   }
-  for (const std::vector<std::size_t>& port : writes) {
-    for (const std::size_t stream : port) fifos_[stream].writer = id;
-    writes_any = writes_any || !port.empty();
+  for (std::size_t port = 0; port < writes.size(); ++port) {
+    for (const std::size_t stream : writes[port]) fifos_[stream].writer = id, written |= 1u << port;
   }
+  // Where something is written, what goes elsewhere takes its place in the pipeline too. A pipeline that
+  // nothing holds up is none.
+  if (written != 0 && stage.latency > 0) written = ~0u;
 
-  // Phases that do the same share an action. A pipeline that nothing holds up is none.
   std::vector<std::size_t> action_of_phase;
   const std::size_t first_action = actions_.size();
-  std::vector<std::pair<PortMask, PortMask>> masks;
+  std::vector<std::pair<unsigned, unsigned>> masks;  // of the actions
+  const auto append = [&](const Ports& ports, unsigned mask) {
+    for (std::size_t port = 0; port < ports.size(); ++port) {
+      if (((mask >> port) & 1u) != 0) lists_.insert(lists_.end(), ports[port].begin(), ports[port].end());
+    }
+    return lists_.size();
+  };
   for (const Phase& phase : stage.schedule.phases()) {
-    const std::pair<PortMask, PortMask> mask(phase.consume, phase.produce);
+    const std::pair<unsigned, unsigned> mask(phase.consume & read, phase.produce & written);
     const auto known = std::find(masks.begin(), masks.end(), mask);
     action_of_phase.push_back(first_action + static_cast<std::size_t>(known - masks.begin()));
     if (known != masks.end()) continue;
     masks.push_back(mask);
-    const auto append = [&](const Ports& ports, PortMask of) {
-      for (std::size_t port = 0; port < ports.size(); ++port) {
-        if (((of >> port) & 1u) != 0) lists_.insert(lists_.end(), ports[port].begin(), ports[port].end());
-      }
-      return lists_.size();
-    };
     Action action{};
     action.consume = lists_.size();
-    action.consume_end = append(reads, phase.consume);
+    action.consume_end = append(reads, mask.first);
     action.produce = action.consume_end;
-    action.produce_end = append(writes, phase.produce);
-    action.enters = phase.produce != 0 && writes_any && stage.latency > 0;
+    action.produce_end = append(writes, mask.second);
+    action.enters = mask.second != 0 && stage.latency > 0;
     actions_.push_back(action);
   }
   load(stage.schedule, action_of_phase);

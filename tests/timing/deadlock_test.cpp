@@ -116,7 +116,21 @@ TEST(Deadlock, TheProgramNamesItAndFails) {
           "for machine.pipeline.texture\n"),
       std::string::npos)
       << ended.text;
+  EXPECT_NE(ended.text.find("\n  streams.left_texture.depth = 128 would free it (now 64)\n"),
+            std::string::npos)
+      << ended.text;
   EXPECT_EQ(ended.text.find("frames/s"), std::string::npos) << "results of a run that failed";
+}
+
+TEST(Deadlock, TheProgramNamesSeveralDepths) {
+  const Ended ended = run_program(
+      "--size 160x48 --frames 1 --set streams.left_texture.depth=64 --set streams.left_output.depth=1");
+  EXPECT_EQ(ended.status, 1);
+  EXPECT_NE(
+      ended.text.find("\n  streams.left_output.depth = 3175 (now 1) and streams.left_texture.depth = 128 "
+                      "(now 64) would free it together, none of them alone\n"),
+      std::string::npos)
+      << ended.text;
 }
 
 TEST(Deadlock, TheProgramSucceedsWithAutomaticDepths) {
