@@ -21,6 +21,10 @@ using Need = CountSimulation::Need;
 
 constexpr std::size_t kNone = CountSimulation::kNone;
 
+// Nodes of a stage (CountSimulation::Need).
+std::size_t firing(std::size_t stage) { return 2 * stage; }
+std::size_t leaving(std::size_t stage) { return 2 * stage + 1; }
+
 class Names {
  public:
   std::size_t number(const std::string& name) {
@@ -269,15 +273,29 @@ std::vector<std::size_t> closed_circle(const std::vector<Arc>& arcs) {
   return {};
 }
 
+// A stage is two nodes, its next firing and the first one in its pipeline, since a token that others wait for
+// may be in the pipeline already, so that what the next firing waits for is not what keeps it from them.
 std::vector<Wait> closed_circle(const std::vector<Wait>& all) {
   Names names;
   std::vector<Arc> arcs;
+  std::vector<bool> has_empty;
+  std::vector<bool> has_full;
   for (const Wait& wait : all) {
     const std::size_t waiter = names.number(wait.waiter);
-    arcs.emplace_back(waiter, names.number(wait.other));
+    const std::size_t other = names.number(wait.other);
+    has_empty.resize(names.size());
+    has_full.resize(names.size());
+    (wait.on_full ? has_full : has_empty)[waiter] = true;
+    arcs.push_back(wait.on_full ? Arc(leaving(waiter), firing(other)) : Arc(firing(waiter), leaving(other)));
+  }
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (has_full[i] && !has_empty[i]) arcs.emplace_back(firing(i), leaving(i));  // the pipeline is full
+    if (has_empty[i] && !has_full[i]) arcs.emplace_back(leaving(i), firing(i));  // it is empty
   }
   std::vector<Wait> circle;
-  for (const std::size_t i : closed_circle(arcs)) circle.push_back(all[i]);
+  for (const std::size_t i : closed_circle(arcs)) {
+    if (i < all.size()) circle.push_back(all[i]);
+  }
   return circle;
 }
 

@@ -30,6 +30,7 @@ using DepthOf = std::map<std::string, std::uint32_t>;  // by the stream's own na
 // What a simulation found. It ran in a process of its own, so this travels as text.
 struct Found {
   bool stuck = false;
+  bool named = false;  // the circle of waits that is named is one that the remedy breaks
   std::string obstacle;
   DepthOf remedy;
   DepthOf depths;  // as they were
@@ -38,8 +39,12 @@ struct Found {
 
 std::string text(bool stuck, const Dataflow& dataflow, std::uint64_t frames) {
   const Remedy remedy = smallest_remedy(dataflow, frames);
+  bool named = false;
+  for (const Remedy::Depth& depth : remedy.depths) {
+    for (const Wait& wait : dataflow.deadlock()) named |= wait.on_full && wait.stream == depth.stream;
+  }
   std::ostringstream out;
-  out << stuck << "\n" << remedy.obstacle << "\n" << remedy.depths.size();
+  out << stuck << " " << named << "\n" << remedy.obstacle << "\n" << remedy.depths.size();
   for (const Remedy::Depth& depth : remedy.depths)
     out << " " << depth.stream->basename() << " " << depth.tokens;
   for (const StreamBase* stream : dataflow.streams()) {
@@ -54,7 +59,7 @@ Found parse(const std::string& text) {
   std::size_t raised = 0;
   std::string name;
   std::uint32_t depth = 0;
-  in >> found.stuck;
+  in >> found.stuck >> found.named;
   in.ignore();
   std::getline(in, found.obstacle);
   for (in >> raised; raised > 0 && in >> name >> depth; --raised) found.remedy[name] = depth;
@@ -75,6 +80,7 @@ void check(const Found& found, Counts& counts, const Run& run) {
   RC_ASSERT(found.stuck != found.remedy.empty());
   if (!found.stuck) return;
   ++counts.stuck;
+  RC_ASSERT(found.named);
   RC_ASSERT(!run(found.remedy).stuck);
   for (const auto& [stream, tokens] : found.remedy) {
     RC_ASSERT(tokens > found.depths.at(stream));
