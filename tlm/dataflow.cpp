@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "tlm/deadlock.hpp"
 #include "tlm/leap.hpp"
 #include "tlm/stream_base.hpp"
 
@@ -137,33 +138,7 @@ std::vector<Wait> Dataflow::waits() const {
   return all;
 }
 
-std::vector<Wait> Dataflow::deadlock() const {
-  const std::vector<Wait> all = waits();
-  // Depth-first search along "waits for"; a node may wait on several streams.
-  std::vector<Wait> path;
-  std::vector<std::string> done;
-  std::function<bool(const std::string&)> visit = [&](const std::string& node) {
-    const auto seen =
-        std::find_if(path.begin(), path.end(), [&](const Wait& wait) { return wait.waiter == node; });
-    if (seen != path.end()) {
-      path.erase(path.begin(), seen);
-      return true;
-    }
-    if (std::find(done.begin(), done.end(), node) != done.end()) return false;
-    for (const Wait& wait : all) {
-      if (wait.waiter != node) continue;
-      path.push_back(wait);
-      if (visit(wait.other)) return true;
-      path.pop_back();
-    }
-    done.push_back(node);
-    return false;
-  };
-  for (const Wait& wait : all) {
-    if (visit(wait.waiter)) return path;
-  }
-  return {};
-}
+std::vector<Wait> Dataflow::deadlock() const { return closed_circle(waits()); }
 
 std::string describe(const std::vector<Wait>& cycle) {
   std::string text;

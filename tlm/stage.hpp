@@ -68,6 +68,8 @@ class Stage : public sc_core::sc_module, public Actor {
   const ClockDomain& clock() const { return clock_; }
   std::uint32_t latency() const { return latency_; }
   const Schedule& schedule() const { return schedule_; }
+  /// The stage stops after so many frames; 0 = never.
+  std::uint64_t frame_limit() const { return frame_limit_; }
   const StageStatistics& statistics() const {
     dataflow_.bring_up_to_date();
     return statistics_;

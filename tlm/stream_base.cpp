@@ -11,7 +11,6 @@
 namespace parallax {
 namespace {
 
-constexpr std::uint32_t kLargestDepth = 1u << 24;
 constexpr std::uint32_t kMostStages = 8;
 
 // Beyond the depth, a ring holds the dates that settle() has not counted yet, and the history in which periodic motion
@@ -26,9 +25,9 @@ std::uint64_t ring_mask(std::uint32_t depth) {
 
 // The configuration with the offsets of its kind.
 FifoConfig checked(const char* name, FifoConfig config, const ClockDomain& writer, const ClockDomain& reader) {
-  if (config.depth < 1 || config.depth > kLargestDepth) {
+  if (config.depth < 1 || config.depth > StreamBase::kLargestDepth) {
     throw UserError(
-        fmt::format("stream '{}': depth {} is outside 1 to {} tokens", name, config.depth, kLargestDepth));
+        fmt::format("stream '{}': depth {} is outside 1 to {} tokens", name, config.depth, StreamBase::kLargestDepth));
   }
   const bool one_clock = &writer == &reader;
   if (config.kind != FifoKind::kFree) {

@@ -59,6 +59,8 @@ class StreamListener {
 /// time gets there.
 class StreamBase : public sc_core::sc_prim_channel, public virtual sc_core::sc_interface {
  public:
+  static constexpr std::uint32_t kLargestDepth = 1u << 24;  // tokens
+
   /// Throws UserError, naming the stream, when a number is out of its range, when a kind for one clock is put
   /// between two, or an offset of 0 is, or when offsets are given to a kind that has its own. Clocks are two
   /// when they are two objects, of whatever frequencies.
@@ -97,6 +99,9 @@ class StreamBase : public sc_core::sc_prim_channel, public virtual sc_core::sc_i
   void attach_reader(const std::string& module, Actor* actor);
   const std::string& writer_name() const { return writer_name_; }
   const std::string& reader_name() const { return reader_name_; }
+  /// nullptr for a thread in kernel time.
+  const Actor* writer() const { return writer_; }
+  const Actor* reader() const { return reader_; }
 
   // Reading, in cycles of the reader's clock.
 

@@ -19,6 +19,7 @@
 #include "platform/input/image_padding.hpp"
 #include "platform/input/rectification_choice.hpp"
 #include "platform/machine.hpp"
+#include "platform/results/deadlock_message.hpp"
 #include "platform/results/frame_results.hpp"
 #include "platform/results/limits.hpp"
 #include "platform/results/peak_memory.hpp"
@@ -154,7 +155,10 @@ class Run {
     progress_.reset();
     if (failure_) std::rethrow_exception(failure_);
     if (stopping_) return interrupted(interruption.signal());
-    if (!machine.finished()) return stuck(machine);
+    if (!machine.finished()) {
+      context_.err << "parallax: error: " << deadlock_message(machine);
+      return kMachineStuck;
+    }
     totals_.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
     totals_.peak_megabytes = peak_memory_megabytes();
     totals_.command = context_.command_line;
@@ -241,18 +245,6 @@ class Run {
     context_.err << fmt::format("parallax: interrupted after {} frame{}\n", totals_.frames,
                                 totals_.frames == 1 ? "" : "s");
     return kSignalled + signal;
-  }
-
-  int stuck(const Machine& machine) {
-    const std::vector<Wait> cycle = machine.dataflow().deadlock();
-    if (!cycle.empty()) {
-      context_.err << "parallax: error: the machine is deadlocked; nobody in this circle can go on:\n"
-                   << describe(cycle);
-    } else {
-      context_.err << "parallax: error: the machine stopped before the host had all frames; these wait:\n"
-                   << describe(machine.dataflow().waits());
-    }
-    return kMachineStuck;
   }
 
   const std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();

@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include "tests/timing/model_simulation.hpp"
+#include "tlm/deadlock.hpp"
 
 namespace parallax::test {
 namespace {
@@ -64,6 +65,104 @@ TEST(Deadlock, NamesTheCircleOfWaits) {
   EXPECT_NE(text.find("n3 waits on stream s3 (empty, depth 2) for n2\n"), std::string::npos) << text;
 }
 
+// Node 1 forks to the join 3 and to 4, and has in its pipeline the token that the join waits for, since 4 waits for
+// the join before it reads. That node 1's next firing waits for the source, which waits for 2, which waits for the
+// join, closes a circle too, but holds nobody up.
+TEST(Deadlock, NamesNoWaitOfAStageThatNobodyWaitsFor) {
+  constexpr PortMask kNone = 0;
+  const auto stage = [](std::uint32_t latency, const std::vector<GraphPart>& parts) {
+    GraphNode node;
+    node.latency = latency;
+    node.parts = parts;
+    return node;
+  };
+  Graph graph;
+  graph.nodes = {end(GraphNode::Kind::kSource, 10),
+                 stage(1, {{10, {{1, 1, 1, 1}}}}),
+                 stage(0, {{10, {{1, 1, 1, 1}}}}),
+                 stage(0, {{3, {{1, 1, 0b01, kNone}}},
+                           {7, {{1, 1, 0b10, 1}, {1, 1, 0b01, kNone}}},
+                           {3, {{1, 1, 0b10, 1}}}}),
+                 stage(0, {{10, {{1, 1, 0b11, 1}}}}),
+                 end(GraphNode::Kind::kSink, 10)};
+  graph.edges = {{0, 0, 1, 0, 9}, {0, 0, 2, 0, 2}, {2, 0, 3, 1, 1}, {1, 0, 3, 0, 9},
+                 {3, 0, 4, 0, 9}, {1, 0, 4, 1, 2}, {4, 0, 5, 0, 9}};
+  ModelSimulation model(graph, ~0ull);
+  model.run();
+  const std::string text = describe(model.dataflow().waits());
+  ASSERT_NE(text.find("n1 waits on stream s0 (empty, depth 9) for n0\n"), std::string::npos) << text;
+  ASSERT_NE(text.find("n0 waits on stream s1 (full, depth 2) for n2\n"), std::string::npos) << text;
+  ASSERT_NE(text.find("n2 waits on stream s2 (full, depth 1) for n3\n"), std::string::npos) << text;
+  const std::vector<Wait> circle = model.dataflow().deadlock();
+  EXPECT_EQ(circle.size(), 3u);
+  for (const Wait& wait : circle) EXPECT_NE(wait.other, "n0") << describe(circle);
+  const Remedy remedy = smallest_remedy(model.dataflow(), 1);
+  ASSERT_EQ(remedy.depths.size(), 1u) << remedy.obstacle;
+  EXPECT_EQ(remedy.depths[0].stream, &model.stream(5));
+  EXPECT_EQ(remedy.depths[0].tokens, 3u);
+}
+
+// A block in kernel time between two stages: nobody knows when it reads and writes.
+class Unknown final : public sc_core::sc_module {
+ public:
+  StreamIn<int> in{"in"};
+  StreamOut<int> out{"out"};
+  explicit Unknown(const sc_core::sc_module_name& name) : sc_module(name) {
+    SC_HAS_PROCESS(Unknown);
+    SC_THREAD(run);
+  }
+
+ private:
+  void run() {
+    for (int i = 0;; ++i) {
+      in->wait_readable();
+      in->release();
+      if (i < 8) continue;
+      out[0]->wait_writable();
+      out[0]->commit();
+    }
+  }
+};
+
+class Copy final : public Stage {
+ public:
+  StreamIn<int> in_a{"in_a"};
+  StreamIn<int> in_b{"in_b"};
+  StreamOut<int> out{"out"};
+  Copy(const sc_core::sc_module_name& name, const ClockDomain& clock, Dataflow& dataflow)
+      : Stage(name, clock, dataflow, 1) {
+    set_schedule(Schedule().run({1, 1, 0b11, 0b1}));
+  }
+};
+
+TEST(Deadlock, SaysThatItKnowsNoDepthWhereABlockInKernelTimeTakesPart) {
+  GraphNode node = end(GraphNode::Kind::kSource, 20);
+  const ClockDomain clock("clock", Hertz(1000));
+  Dataflow dataflow("dataflow");
+  GraphThread<int> source("source", clock, node);
+  Unknown unknown("unknown");
+  Copy join("join", clock, dataflow);
+  Stream<int> to_unknown("to_unknown", dataflow, clock, clock, {});
+  Stream<int> to_join("to_join", dataflow, clock, clock, {});
+  Stream<int> from_unknown("from_unknown", dataflow, clock, clock, {});
+  Stream<int> result("result", dataflow, clock, clock, {});
+  (*source.out)(to_unknown);
+  (*source.out)(to_join);
+  unknown.in(to_unknown);
+  unknown.out(from_unknown);
+  join.in_a(from_unknown);
+  join.in_b(to_join);
+  join.out(result);
+  GraphNode sink = end(GraphNode::Kind::kSink, 20);
+  GraphThread<int> last("last", clock, sink);
+  (*last.in)(result);
+  sc_core::sc_start();
+  EXPECT_EQ(dataflow.deadlock().size(), 3u);
+  const Remedy remedy = smallest_remedy(dataflow, 1);
+  EXPECT_TRUE(remedy.depths.empty());
+  EXPECT_EQ(remedy.obstacle, "unknown takes part, and no schedule says what it reads and writes");
+}
+
 TEST(Deadlock, NoneWhenTheShortcutIsDeepEnough) {
   ModelSimulation model(fork_and_join(12), ~0ull);
   const auto dates = model.run();
@@ -116,7 +215,21 @@ TEST(Deadlock, TheProgramNamesItAndFails) {
           "for machine.pipeline.texture\n"),
       std::string::npos)
       << ended.text;
+  EXPECT_NE(ended.text.find("\n  streams.left_texture.depth = 128 would free it (now 64)\n"),
+            std::string::npos)
+      << ended.text;
   EXPECT_EQ(ended.text.find("frames/s"), std::string::npos) << "results of a run that failed";
+}
+
+TEST(Deadlock, TheProgramNamesSeveralDepths) {
+  const Ended ended = run_program(
+      "--size 160x48 --frames 1 --set streams.left_texture.depth=64 --set streams.left_output.depth=1");
+  EXPECT_EQ(ended.status, 1);
+  EXPECT_NE(
+      ended.text.find("\n  streams.left_output.depth = 3175 (now 1) and streams.left_texture.depth = 128 "
+                      "(now 64) would free it together, none of them alone\n"),
+      std::string::npos)
+      << ended.text;
 }
 
 TEST(Deadlock, TheProgramSucceedsWithAutomaticDepths) {
