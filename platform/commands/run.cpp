@@ -141,6 +141,7 @@ class Run {
     input.height = padded_.height;
     input.map = &rectification_.map;
     input.frames = total_frames_;
+    input.timing_only = options_.timing_only;
     input.expose = [&](std::int64_t frame) {
       if (interruption.requested()) stop();
       return guarded(frame, [&] { return expose(frame); });
@@ -188,7 +189,7 @@ class Run {
   }
 
   StereoFrame expose(std::int64_t frame) {
-    if (frame >= source_->frames()) return {};
+    if (options_.timing_only || frame >= source_->frames()) return {};
     const StereoImages images = pad_images(source_->load(frame), granularity_);
     const auto pixels = [](const cv::Mat& image) {
       return std::make_shared<const std::vector<Gray>>(image.begin<Gray>(), image.end<Gray>());

@@ -80,6 +80,10 @@ void add_run_command(CLI::App& app, CommandContext& context) {
       .add_flag("--fit", options->fit, "Zoom and shift the rectified images until the offsets fit the window")
       ->group("Rectification");
 
+  command
+      .add_flag("--timing-only", options->timing_only,
+                "Compute no images, only when everything happens: the same dates, much sooner")
+      ->group("Output");
   command.add_option("--out", options->out, "Folder for the results; without it only the summary is printed")
       ->check(not_empty())
       ->type_name("DIR")

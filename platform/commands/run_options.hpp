@@ -31,6 +31,7 @@ struct RunOptions {
   std::string map;
   bool fit = false;
   // Output.
+  bool timing_only = false;  ///< no images are computed
   std::filesystem::path out;
   bool point_cloud = true;
   bool json = false;
