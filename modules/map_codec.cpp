@@ -26,37 +26,36 @@ Components components(const OffsetPair& pair) {
 
 // Bits of the two's complement number `value`; 0 for 0.
 int bits_of(std::int32_t value) {
-  int bits = 0;
-  if (value != 0) {
-    bits = 1;
-    while (value < -(1 << (bits - 1)) || value >= (1 << (bits - 1))) {
-      ++bits;
-    }
-  }
-  return bits;
+  if (value == 0) return 0;
+  const auto magnitude = static_cast<std::uint32_t>(value ^ (value >> 31));  // the sign bit counts extra
+  return magnitude == 0 ? 1 : 33 - __builtin_clz(magnitude);
 }
 
+// Appends bits at `end`, which has room for them.
 class BitWriter {
  public:
-  explicit BitWriter(std::vector<std::uint8_t>& bytes) : bytes_(bytes) {}
+  explicit BitWriter(std::uint8_t* end) : end_(end) {}
 
+  /// At most 32 bits.
   void put(std::int32_t value, int bits) {
     const std::uint64_t mask = (std::uint64_t{1} << bits) - 1;
     pending_ |= (static_cast<std::uint64_t>(static_cast<std::uint32_t>(value)) & mask) << count_;
     count_ += bits;
     for (; count_ >= 8; count_ -= 8, pending_ >>= 8) {
-      bytes_.push_back(static_cast<std::uint8_t>(pending_));
+      *end_++ = static_cast<std::uint8_t>(pending_);
     }
   }
 
-  void fill_byte() {
+  /// Fills the last byte with zeros; returns the first byte after it.
+  std::uint8_t* finish() {
     if (count_ > 0) {
       put(0, 8 - count_);
     }
+    return end_;
   }
 
  private:
-  std::vector<std::uint8_t>& bytes_;
+  std::uint8_t* end_;
   std::uint64_t pending_ = 0;
   int count_ = 0;
 };
@@ -65,10 +64,16 @@ class BitWriter {
 class RowEncoder {
  public:
   RowEncoder(int width, const OffsetRange& range, const OffsetPair* above, const OffsetPair* row)
-      : width_(width), modulus_(1 << range.offset_bits()), above_(above), row_(row) {}
+      : width_(width),
+        worst_(worst_row_bytes(width, range)),
+        modulus_(1 << range.offset_bits()),
+        above_(above),
+        row_(row) {}
 
-  void encode(std::vector<std::uint8_t>& bytes) const {
-    BitWriter writer(bytes);
+  void encode(std::vector<std::uint8_t>& bytes) {
+    const std::size_t size = bytes.size();
+    bytes.resize(size + worst_);
+    BitWriter writer(bytes.data() + size);
     std::array<Components, kBlockPixels> residuals{};
     for (int begin = 0; begin < width_; begin += kBlockPixels) {
       const int count = std::min(kBlockPixels, width_ - begin);
@@ -89,31 +94,31 @@ class RowEncoder {
         }
       }
     }
-    writer.fill_byte();
+    bytes.resize(static_cast<std::size_t>(writer.finish() - bytes.data()));
   }
 
  private:
-  static Components value(const OffsetPair* row, int x) { return x < 0 ? Components{} : components(row[x]); }
-
   // value - (left + up - upleft), wrapped: missing neighbours count as zero, which gives the predictors of
-  // the edges.
-  Components residual(int x) const {
-    const Components here = value(row_, x);
-    const Components left = value(row_, x - 1);
-    const Components up = value(above_, x);
-    const Components upleft = value(above_, x - 1);
+  // the edges. To be asked for every x in turn.
+  Components residual(int x) {
+    const Components here = components(row_[x]);
+    const Components up = components(above_[x]);
     Components r{};
     for (std::size_t c = 0; c < r.size(); ++c) {
-      const std::int32_t difference = here[c] - left[c] - up[c] + upleft[c];
+      const std::int32_t step = here[c] - up[c];
+      const std::int32_t difference = step - left_step_[c];
       r[c] = ((difference + modulus_ / 2) & (modulus_ - 1)) - modulus_ / 2;
+      left_step_[c] = step;
     }
     return r;
   }
 
   int width_;
+  std::size_t worst_;
   std::int32_t modulus_;
   const OffsetPair* above_;
   const OffsetPair* row_;
+  Components left_step_{};  // value - up, of the pixel before
 };
 
 const OffsetRange& validated(const OffsetRange& range) {
