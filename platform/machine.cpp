@@ -143,7 +143,7 @@ void Machine::place_map() {
 void Machine::expose(std::int64_t frame) {
   const std::vector<std::uint32_t> rows = equal_rows(input_.height, static_cast<std::size_t>(input_.width));
   ++input_buffers_used_;
-  const StereoFrame images = frame < input_.frames ? input_.expose(frame) : StereoFrame{};
+  const StereoFrame images = frame < input_.frames && input_.expose ? input_.expose(frame) : StereoFrame{};
   const bool values = images.left != nullptr;
   values_.push_back(values);
   times_.emplace_back();
