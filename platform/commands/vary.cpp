@@ -16,6 +16,7 @@
 #include "platform/config/config_writer.hpp"
 #include "platform/config/nearest_name.hpp"
 #include "platform/config/preset.hpp"
+#include "platform/config/preset_file.hpp"
 #include "platform/input/image_padding.hpp"
 #include "platform/input/rectification_choice.hpp"
 #include "platform/results/output_folder.hpp"
@@ -104,13 +105,24 @@ std::vector<Point> combinations(const std::vector<Axis>& axes) {
   return points;
 }
 
+std::string value_of(const std::string& assignment) { return assignment.substr(assignment.find('=') + 1); }
+
+// {"key": value}; what no key can hold stays text.
+nlohmann::ordered_json as_json(const std::string& assignment) {
+  const auto [key, raw] = read_assignment(assignment);
+  const auto* value = std::get_if<ConfigValue>(&raw.value);
+  if (value == nullptr) return {{key, value_of(assignment)}};
+  return {{key, std::visit([](const auto& held) { return nlohmann::ordered_json(held); }, *value)}};
+}
+
 /// The input as the machines of the grid see it. Images are opened anew only when a key about their size
 /// changes, the map is built once for every window, precision and processed size.
 class GridInput {
  public:
   GridInput(const RunOptions& options, NoticeSink notice) : options_(options), notice_(std::move(notice)) {}
 
-  /// Throws UserError when the configuration and the input do not go together.
+  /// Throws UserError when the images cannot be read, or the configuration and the input do not go together.
+  void open(const MachineConfig& config) { source_for(config); }
   TimingInput prepare(const MachineConfig& config) {
     const FrameSource& source = source_for(config);
     TimingInput input;
@@ -167,9 +179,12 @@ class Grid {
   Grid(const RunOptions& options, CommandContext& context)
       : options_(options),
         context_(context),
-        axes_(read_axes(options, load_configuration(options.configuration, preset_folders()))),
-        points_(combinations(axes_)),
-        input_(options, [this](const std::string& line) { note(line); }) {}
+        input_(options, [this](const std::string& line) { note(line); }) {
+    const Configuration configuration = load_configuration(options.configuration, preset_folders());
+    axes_ = read_axes(options, configuration);
+    points_ = combinations(axes_);
+    input_.open(configuration.machine);  // a wrong path is one error, not one a point
+  }
 
   int run() {
     const Interruption interruption;
@@ -225,10 +240,6 @@ class Grid {
     }
   }
 
-  static std::string value(const std::string& assignment) {
-    return assignment.substr(assignment.find('=') + 1);
-  }
-
   static std::size_t width(const Axis& axis) {
     std::size_t most = axis.key.size();
     for (const std::string& text : axis.values) most = std::max(most, text.size());
@@ -244,7 +255,7 @@ class Grid {
   std::string row(std::size_t index, const TimingResult& result) const {
     std::string line = fmt::format("{:>5}", index);
     for (std::size_t i = 0; i < axes_.size(); ++i) {
-      line += fmt::format("  {:>{}}", value(points_[index][i]), width(axes_[i]));
+      line += fmt::format("  {:>{}}", value_of(points_[index][i]), width(axes_[i]));
     }
     if (result.status != Status::kDone) {
       // Of several lines the last one says what to do.
@@ -266,10 +277,7 @@ class Grid {
 
   nlohmann::ordered_json entry(std::size_t index, TimingResult result) const {
     nlohmann::ordered_json point{{"point", index}, {"status", name(result.status)}};
-    for (const std::string& assignment : points_[index]) {
-      const auto [key, raw] = read_assignment(assignment);
-      point["set"][key] = std::get<ConfigValue>(raw.value);
-    }
+    for (const std::string& assignment : points_[index]) point["set"].update(as_json(assignment));
     if (result.status == Status::kDone) {
       point["timing"] = std::move(result.metrics);
     } else {
@@ -280,8 +288,8 @@ class Grid {
 
   const RunOptions& options_;
   CommandContext& context_;
-  const std::vector<Axis> axes_;
-  const std::vector<Point> points_;
+  std::vector<Axis> axes_;
+  std::vector<Point> points_;
   GridInput input_;
   std::unique_ptr<OutputFolder> folder_;
   std::set<std::string> said_;  // notes, once each
