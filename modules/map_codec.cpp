@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdlib>
 #include <stdexcept>
+#include <utility>
 
 #include "modules/map_decoder.hpp"
 #include "tlm/error.hpp"
@@ -25,54 +26,61 @@ Components components(const OffsetPair& pair) {
 
 // Bits of the two's complement number `value`; 0 for 0.
 int bits_of(std::int32_t value) {
-  int bits = 0;
-  if (value != 0) {
-    bits = 1;
-    while (value < -(1 << (bits - 1)) || value >= (1 << (bits - 1))) {
-      ++bits;
-    }
-  }
-  return bits;
+  if (value == 0) return 0;
+  const auto magnitude = static_cast<std::uint32_t>(value ^ (value >> 31));  // the sign bit counts extra
+  return magnitude == 0 ? 1 : 33 - __builtin_clz(magnitude);
 }
 
+// Appends bits at `end`, which has room for them.
 class BitWriter {
  public:
-  explicit BitWriter(std::vector<std::uint8_t>& bytes) : bytes_(bytes) {}
+  explicit BitWriter(std::uint8_t* end) : end_(end) {}
 
+  /// At most 32 bits.
   void put(std::int32_t value, int bits) {
     const std::uint64_t mask = (std::uint64_t{1} << bits) - 1;
     pending_ |= (static_cast<std::uint64_t>(static_cast<std::uint32_t>(value)) & mask) << count_;
     count_ += bits;
     for (; count_ >= 8; count_ -= 8, pending_ >>= 8) {
-      bytes_.push_back(static_cast<std::uint8_t>(pending_));
+      *end_++ = static_cast<std::uint8_t>(pending_);
     }
   }
 
-  void fill_byte() {
+  /// Fills the last byte with zeros; returns the first byte after it.
+  std::uint8_t* finish() {
     if (count_ > 0) {
       put(0, 8 - count_);
     }
+    return end_;
   }
 
  private:
-  std::vector<std::uint8_t>& bytes_;
+  std::uint8_t* end_;
   std::uint64_t pending_ = 0;
   int count_ = 0;
 };
 
+// The code of one row; `above` is the row before it, zeros for the first one.
 class RowEncoder {
  public:
-  explicit RowEncoder(const RectificationMap& map) : map_(map), modulus_(1 << map.range.offset_bits()) {}
+  RowEncoder(int width, const OffsetRange& range, const OffsetPair* above, const OffsetPair* row)
+      : width_(width),
+        worst_(worst_row_bytes(width, range)),
+        modulus_(1 << range.offset_bits()),
+        above_(above),
+        row_(row) {}
 
-  void encode_row(int y, std::vector<std::uint8_t>& bytes) const {
-    BitWriter writer(bytes);
+  void encode(std::vector<std::uint8_t>& bytes) {
+    const std::size_t size = bytes.size();
+    bytes.resize(size + worst_);
+    BitWriter writer(bytes.data() + size);
     std::array<Components, kBlockPixels> residuals{};
-    for (int begin = 0; begin < map_.width; begin += kBlockPixels) {
-      const int count = std::min(kBlockPixels, map_.width - begin);
+    for (int begin = 0; begin < width_; begin += kBlockPixels) {
+      const int count = std::min(kBlockPixels, width_ - begin);
       std::array<int, kComponents> widths{};
       for (int i = 0; i < count; ++i) {
         Components& r = residuals[static_cast<std::size_t>(i)];
-        r = residual(begin + i, y);
+        r = residual(begin + i);
         for (std::size_t c = 0; c < r.size(); ++c) {
           widths[c] = std::max(widths[c], bits_of(r[c]));
         }
@@ -86,46 +94,36 @@ class RowEncoder {
         }
       }
     }
-    writer.fill_byte();
+    bytes.resize(static_cast<std::size_t>(writer.finish() - bytes.data()));
   }
 
  private:
-  Components value(int x, int y) const { return x < 0 || y < 0 ? Components{} : components(map_.row(y)[x]); }
-
   // value - (left + up - upleft), wrapped: missing neighbours count as zero, which gives the predictors of
-  // the edges.
-  Components residual(int x, int y) const {
-    const Components here = value(x, y);
-    const Components left = value(x - 1, y);
-    const Components up = value(x, y - 1);
-    const Components upleft = value(x - 1, y - 1);
+  // the edges. To be asked for every x in turn.
+  Components residual(int x) {
+    const Components here = components(row_[x]);
+    const Components up = components(above_[x]);
     Components r{};
     for (std::size_t c = 0; c < r.size(); ++c) {
-      const std::int32_t difference = here[c] - left[c] - up[c] + upleft[c];
+      const std::int32_t step = here[c] - up[c];
+      const std::int32_t difference = step - left_step_[c];
       r[c] = ((difference + modulus_ / 2) & (modulus_ - 1)) - modulus_ / 2;
+      left_step_[c] = step;
     }
     return r;
   }
 
-  const RectificationMap& map_;
+  int width_;
+  std::size_t worst_;
   std::int32_t modulus_;
+  const OffsetPair* above_;
+  const OffsetPair* row_;
+  Components left_step_{};  // value - up, of the pixel before
 };
 
-void check(const RectificationMap& map) {
-  map.range.validate();
-  const std::size_t pixels = static_cast<std::size_t>(map.width) * static_cast<std::size_t>(map.height);
-  if (map.width < 1 || map.height < 1 || map.offsets.size() != pixels) {
-    throw std::invalid_argument(
-        fmt::format("map of {}x{} pixels with {} offsets", map.width, map.height, map.offsets.size()));
-  }
-  for (const OffsetPair& pair : map.offsets) {
-    for (const std::int32_t value : components(pair)) {
-      if (std::abs(value) > map.range.limit()) {
-        throw std::invalid_argument(
-            fmt::format("offset {} is beyond the map's limit {}", value, map.range.limit()));
-      }
-    }
-  }
+const OffsetRange& validated(const OffsetRange& range) {
+  range.validate();
+  return range;
 }
 
 }  // namespace
@@ -134,21 +132,50 @@ double EncodedMap::bytes_per_pixel() const {
   return static_cast<double>(bytes.size()) / (2.0 * static_cast<double>(width) * static_cast<double>(height));
 }
 
-EncodedMap encode(const RectificationMap& map) {
-  check(map);
-  EncodedMap encoded{map.width, map.height, map.range, {}, {}};
-  const RowEncoder encoder(map);
-  for (int y = 0; y < map.height; ++y) {
-    const std::size_t begin = encoded.bytes.size();
-    encoder.encode_row(y, encoded.bytes);
-    encoded.row_bytes.push_back(static_cast<std::uint32_t>(encoded.bytes.size() - begin));
+MapEncoder::MapEncoder(int width, int height, const OffsetRange& range)
+    : map_{width, height, validated(range), {}, {}}, previous_(static_cast<std::size_t>(std::max(width, 0))) {
+  if (width < 1 || height < 1) {
+    throw std::invalid_argument(fmt::format("map of {}x{} pixels", width, height));
   }
-  return encoded;
 }
 
-RectificationMap decode(const EncodedMap& encoded) {
-  RectificationMap map = identity_map(encoded.width, encoded.height, encoded.range);
+void MapEncoder::push(const OffsetPair* row) {
+  const int limit = map_.range.limit();
+  for (int x = 0; x < map_.width; ++x) {
+    for (const std::int32_t value : components(row[x])) {
+      if (std::abs(value) > limit) {
+        throw std::invalid_argument(fmt::format("offset {} is beyond the map's limit {}", value, limit));
+      }
+    }
+  }
+  const std::size_t begin = map_.bytes.size();
+  RowEncoder(map_.width, map_.range, previous_.data(), row).encode(map_.bytes);
+  map_.row_bytes.push_back(static_cast<std::uint32_t>(map_.bytes.size() - begin));
+  std::copy_n(row, map_.width, previous_.begin());
+}
+
+EncodedMap MapEncoder::take() {
+  if (map_.row_bytes.size() != static_cast<std::size_t>(map_.height)) {
+    throw std::logic_error(
+        fmt::format("a map of {} rows is taken after {}", map_.height, map_.row_bytes.size()));
+  }
+  map_.bytes.shrink_to_fit();
+  return std::move(map_);
+}
+
+EncodedMap encode(const RectificationMap& map) {
+  MapEncoder encoder(map.width, map.height, map.range);
+  if (map.offsets.size() != static_cast<std::size_t>(map.width) * static_cast<std::size_t>(map.height)) {
+    throw std::invalid_argument(
+        fmt::format("map of {}x{} pixels with {} offsets", map.width, map.height, map.offsets.size()));
+  }
+  for (int y = 0; y < map.height; ++y) encoder.push(map.row(y));
+  return encoder.take();
+}
+
+void decode_rows(const EncodedMap& encoded, const RowSink<OffsetPair>& emit) {
   MapDecoder decoder(encoded.range, encoded.width, encoded.height);
+  std::vector<OffsetPair> row(static_cast<std::size_t>(encoded.width));
   std::size_t begin = 0;
   for (int y = 0; y < encoded.height; ++y) {
     const std::size_t size = encoded.row_bytes.at(static_cast<std::size_t>(y));
@@ -156,18 +183,24 @@ RectificationMap decode(const EncodedMap& encoded) {
       throw UserError(fmt::format("rectification map: row {} ends at byte {} of {}", y, begin + size,
                                   encoded.bytes.size()));
     }
-    OffsetPair* row = map.offsets.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(map.width);
-    const std::size_t used = decoder.push(encoded.bytes.data() + begin, size, row);
+    const std::size_t used = decoder.push(encoded.bytes.data() + begin, size, row.data());
     if (used != size) {
       throw UserError(
           fmt::format("rectification map: row {} takes {} bytes, its stated length is {}", y, used, size));
     }
+    emit(row.data());
     begin += size;
   }
   if (begin != encoded.bytes.size()) {
     throw UserError(
         fmt::format("rectification map: the rows end at byte {} of {}", begin, encoded.bytes.size()));
   }
+}
+
+RectificationMap decode(const EncodedMap& encoded) {
+  RectificationMap map = identity_map(encoded.width, encoded.height, encoded.range);
+  OffsetPair* next = map.offsets.data();
+  decode_rows(encoded, [&](const OffsetPair* row) { next = std::copy_n(row, map.width, next); });
   return map;
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "modules/rectification_map.hpp"
+#include "modules/row_sink.hpp"
 
 namespace parallax {
 
@@ -21,10 +22,26 @@ struct EncodedMap {
   double bytes_per_pixel() const;
 };
 
+/// Compresses a map row by row, without loss. Holds the compressed rows and one more.
+class MapEncoder {
+ public:
+  MapEncoder(int width, int height, const OffsetRange& range);
+
+  /// The next of `height` rows. Throws std::invalid_argument for an offset beyond the range.
+  void push(const OffsetPair* row);
+  /// The map, after its last row.
+  EncodedMap take();
+
+ private:
+  EncodedMap map_;
+  std::vector<OffsetPair> previous_;  // the row above; zeros above row 0
+};
+
 /// Compresses without loss. Throws std::invalid_argument for a map whose offsets are beyond its own range.
 EncodedMap encode(const RectificationMap& map);
 
-/// Throws UserError if the bytes are not rows of the stated lengths.
+/// Hands out the rows from the top. Throws UserError if the bytes are not rows of the stated lengths.
+void decode_rows(const EncodedMap& encoded, const RowSink<OffsetPair>& emit);
 RectificationMap decode(const EncodedMap& encoded);
 
 }  // namespace parallax

@@ -12,30 +12,23 @@ class Firings {
   explicit Firings(std::uint32_t interval) : interval_(interval) {}
 
   void add(PortMask consume, PortMask produce) {
-    if (phase_.count != 0 && phase_.consume == consume && phase_.produce == produce) {
-      ++phase_.count;
-      return;
+    if (!phases_.empty() && phases_.back().consume == consume && phases_.back().produce == produce) {
+      ++phases_.back().count;
+    } else {
+      phases_.push_back({1, interval_, consume, produce});
     }
-    flush();
-    phase_ = {1, interval_, consume, produce};
   }
-  void idle(std::uint32_t cycles) {
-    flush();
+  /// The row is over; then so many cycles pass.
+  void end_row(std::uint32_t cycles) {
+    schedule_.repeat(1, phases_);
     if (cycles > 0) schedule_.run({1, cycles, 0, 0});
+    phases_.clear();
   }
-  Schedule take() {
-    flush();
-    return std::move(schedule_);
-  }
+  Schedule take() { return std::move(schedule_); }
 
  private:
-  void flush() {
-    if (phase_.count != 0) schedule_.run(phase_);
-    phase_.count = 0;
-  }
-
   std::uint32_t interval_;
-  Phase phase_{0, 1, 0, 0};
+  std::vector<Phase> phases_;  // of the row
   Schedule schedule_;
 };
 
@@ -63,11 +56,11 @@ Schedule map_schedule(const EncodedMap& map, Bytes word, const StageTiming& timi
       }
     }
     row_start += map.row_bytes[static_cast<std::size_t>(y)];
-    firings.idle(timing.row_overhead);
+    firings.end_row(timing.row_overhead);
   }
   // The padding of the last word belongs to nobody; a word that holds nothing else is read all the same.
   for (; read_bits < map.bytes.size() * 8; read_bits += word_bits) firings.add(0b1, 0);
-  firings.idle(timing.frame_overhead);
+  firings.end_row(timing.frame_overhead);
   return firings.take();
 }
 

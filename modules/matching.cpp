@@ -84,7 +84,6 @@ struct Matching::State {
       : config(matching),
         width(columns),
         height(rows),
-        code_bits(bits),
         count(matching.range().count),
         hamming(matching, columns, bits),
         first_pass(make_paths(matching, columns, false)),
@@ -102,8 +101,6 @@ struct Matching::State {
       frame_sums.resize(product(width, height) * static_cast<std::size_t>(count));
     }
   }
-
-  int largest_cost() const { return config.cost_weight * code_bits; }
 
   void match(const CensusCode* left, const CensusCode* right, Cost* out) {
     hamming.compute(left, right, costs.data());
@@ -134,7 +131,6 @@ struct Matching::State {
   MatchingConfig config;
   int width;
   int height;
-  int code_bits;
   int count;
   int row = 0;
   HammingRow hamming;
@@ -150,18 +146,18 @@ struct Matching::State {
   std::vector<Cost> frame_sums;
 };
 
-Matching::Matching(const MatchingConfig& config, int width, int height, int code_bits) {
+Matching::Matching(const MatchingConfig& config, int width, int height, int code_bits)
+    : config_(config), width_(width), height_(height), code_bits_(code_bits) {
   config.validate();
-  state_ = std::make_unique<State>(config, width, height, code_bits);
 }
 
 Matching::~Matching() = default;
 
 void Matching::push(const CensusCode* left, const CensusCode* right, const RowSink<Cost>& emit) {
+  if (state_ == nullptr) state_ = std::make_unique<State>(config_, width_, height_, code_bits_);
   State& s = *state_;
   const std::size_t first = product(s.row, s.width);
-  const bool one_pass = s.second_pass.empty();
-  if (one_pass) {
+  if (one_pass()) {
     s.match(left, right, s.sums.data());
     emit(s.sums.data());
   } else {
@@ -171,46 +167,43 @@ void Matching::push(const CensusCode* left, const CensusCode* right, const RowSi
   }
   if (++s.row < s.height) return;
   s.row = 0;
-  if (one_pass) return;
+  if (one_pass()) return;
   s.sweep_back();
   for (int y = 0; y < s.height; ++y)
     emit(s.frame_sums.data() + product(y, s.width) * static_cast<std::size_t>(s.count));
 }
 
 int Matching::cost_bits() const {
-  return bits_for(path_count(state_->config.paths) * (state_->largest_cost() + kMaxPenalty));
+  return bits_for(path_count(config_.paths) * (largest_cost() + kMaxPenalty));
 }
 
-int Matching::look_ahead_rows() const { return state_->second_pass.empty() ? 0 : state_->height - 1; }
+int Matching::look_ahead_rows() const { return one_pass() ? 0 : height_ - 1; }
 
-int Matching::look_ahead_pixels() const {
-  return state_->config.paths & (kPathE | kSouthernPaths) ? state_->width - 1 : 0;
-}
+int Matching::look_ahead_pixels() const { return config_.paths & (kPathE | kSouthernPaths) ? width_ - 1 : 0; }
 
 std::int64_t Matching::storage_bits() const {
-  const State& s = *state_;
-  const std::int64_t width = s.width;
-  const int path_bits = bits_for(s.largest_cost() + kMaxPenalty);
-  const std::int64_t pixel_bits = std::int64_t{path_bits} * (s.count + 1);  // with the minimum
-  const int northern = path_count(s.config.paths & (kPathNW | kPathN | kPathNE));
-  const int southern = path_count(s.config.paths & kSouthernPaths);
-  const int horizontal = path_count(s.config.paths & (kPathW | kPathE));
+  const std::int64_t width = width_;
+  const int count = config_.range().count;
+  const int path_bits = bits_for(largest_cost() + kMaxPenalty);
+  const std::int64_t pixel_bits = std::int64_t{path_bits} * (count + 1);  // with the minimum
+  const int northern = path_count(config_.paths & (kPathNW | kPathN | kPathNE));
+  const int southern = path_count(config_.paths & kSouthernPaths);
+  const int horizontal = path_count(config_.paths & (kPathW | kPathE));
   // The second pass runs after the first one: both share the lines.
   std::int64_t bits = pixel_bits * (width * std::max(northern, southern) + horizontal);
-  bits += std::int64_t{s.code_bits} * s.config.range().last();
-  if (s.config.paths & kPathE) {
-    bits += width * s.count * (bits_for(s.largest_cost()) + cost_bits());
+  bits += std::int64_t{code_bits_} * config_.range().last();
+  if (config_.paths & kPathE) {
+    bits += width * count * (bits_for(largest_cost()) + cost_bits());
   }
   return bits;
 }
 
 std::int64_t Matching::external_storage_bits() const {
-  const State& s = *state_;
-  if (s.second_pass.empty()) return 0;
-  const int first_paths = path_count(s.config.paths & ~kSouthernPaths);
-  const std::int64_t pixels = std::int64_t{s.width} * s.height;
-  const int sum_bits = first_paths == 0 ? 0 : bits_for(first_paths * (s.largest_cost() + kMaxPenalty));
-  return pixels * (std::int64_t{s.count} * sum_bits + 2 * s.code_bits);
+  if (one_pass()) return 0;
+  const int first_paths = path_count(config_.paths & ~kSouthernPaths);
+  const std::int64_t pixels = std::int64_t{width_} * height_;
+  const int sum_bits = first_paths == 0 ? 0 : bits_for(first_paths * (largest_cost() + kMaxPenalty));
+  return pixels * (std::int64_t{config_.range().count} * sum_bits + 2 * code_bits_);
 }
 
 }  // namespace parallax

@@ -74,9 +74,10 @@ struct MatchingConfig {
 ///   output(p, k) = sum over the paths of L_r(p, k).
 /// L_r <= cost_weight * code_bits + P2 <= 507, so that the sum of eight paths fits in 12 bits.
 ///
-/// Without southern paths nothing larger than some rows is held. With them the hardware writes the sums of
-/// the first pass (`external_storage_bits`) and both images' codes to memory and reads them back bottom up;
-/// this kernel holds the same frame store, and emits the whole frame, top to bottom, with the last row.
+/// Without southern paths nothing larger than some rows is held, from the first row on. With them the
+/// hardware writes the sums of the first pass (`external_storage_bits`) and both images' codes to memory and
+/// reads them back bottom up; this kernel holds the same frame store, and emits the whole frame, top to
+/// bottom, with the last row.
 class Matching {
  public:
   /// `code_bits` (1..63): meaningful bits of a code.
@@ -101,7 +102,16 @@ class Matching {
 
  private:
   struct State;
-  std::unique_ptr<State> state_;
+
+  int largest_cost() const { return config_.cost_weight * code_bits_; }
+  bool one_pass() const { return (config_.paths & kSouthernPaths) == 0; }
+
+  MatchingConfig config_;
+  int width_;
+  int height_;
+  int code_bits_;
+  std::unique_ptr<State>
+      state_;  // made with the first row: a machine of which only the time is asked has none
 };
 
 }  // namespace parallax

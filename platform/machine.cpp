@@ -9,8 +9,9 @@
 namespace parallax {
 namespace {
 
-MemoryTiming memory_timing(const MemoryConfig& config) {
+MemoryTiming memory_timing(const MemoryConfig& config, bool holds_data) {
   MemoryTiming timing;
+  timing.holds_data = holds_data;
   timing.size = Bytes(config.size_bytes);
   timing.bytes_per_cycle = Bytes(config.bytes_per_cycle);
   timing.efficiency = config.efficiency;
@@ -67,7 +68,7 @@ Machine::Machine(const sc_core::sc_module_name& name, const MachineConfig& confi
       camera_clock_("camera", Hertz(config.clocks.camera_hz)),
       link_clock_("link", Hertz(config.clocks.link_hz)),
       dataflow_("dataflow"),
-      memory_("memory", memory_timing(config.memory), memory_clock_),
+      memory_("memory", memory_timing(config.memory, !input.timing_only), memory_clock_),
       left_sensor_("left_sensor", sensor_config(config, input), camera_clock_, dataflow_),
       right_sensor_("right_sensor", sensor_config(config, input), camera_clock_, dataflow_),
       dma_camera_left_("dma_camera_left", engine_config(config.dma.camera), camera_clock_),
@@ -103,7 +104,7 @@ Machine::Machine(const sc_core::sc_module_name& name, const MachineConfig& confi
 // The map is there before the first frame; then a frame is exposed whenever a buffer is free and its time has
 // come. Nothing that has to be freed lives on this thread's stack while it waits: it never ends.
 void Machine::expose_frames() {
-  place_map();
+  if (!input_.timing_only) place_map();
   for (std::int64_t frame = 0;; ++frame) {
     wait_for_input_buffer();
     if (config_.camera.frame_rate > 0) {
@@ -142,7 +143,7 @@ void Machine::place_map() {
 void Machine::expose(std::int64_t frame) {
   const std::vector<std::uint32_t> rows = equal_rows(input_.height, static_cast<std::size_t>(input_.width));
   ++input_buffers_used_;
-  const StereoFrame images = frame < input_.frames ? input_.expose(frame) : StereoFrame{};
+  const StereoFrame images = frame < input_.frames && input_.expose ? input_.expose(frame) : StereoFrame{};
   const bool values = images.left != nullptr;
   values_.push_back(values);
   times_.emplace_back();

@@ -24,10 +24,12 @@ struct MachineInput {
   int height = 0;  ///< px
   const EncodedMap* map = nullptr;
   std::int64_t frames = 1;
-  /// Called once a frame, in order, when it is exposed. The cameras go on after the last one, without images,
-  /// until the host has all frames, so that every frame meets the traffic of its successors.
+  bool timing_only = false;  ///< no frame has images, so the memory need not hold any
+  /// Called, if there is one, once a frame, in order, when it is exposed. The cameras go on after the last
+  /// one, without images, until the host has all frames, so that every frame meets the traffic of its
+  /// successors.
   std::function<StereoFrame(std::int64_t frame)> expose;
-  /// Called once a frame, in order, when the host has it.
+  /// Called, if there is one, once a frame, in order, when the host has it.
   std::function<void(const FrameResult& result)> deliver;
 };
 

@@ -14,10 +14,12 @@ namespace parallax {
 
 Memory::Memory(const sc_core::sc_module_name& name, const MemoryTiming& timing, const ClockDomain& clock)
     : sc_module(name), timing_(timing), clock_(clock) {
-  // calloc: pages that nobody writes take no memory.
-  bytes_.reset(static_cast<std::uint8_t*>(std::calloc(static_cast<std::size_t>(timing.size.count()), 1)));
-  if (bytes_ == nullptr) {
-    throw UserError(fmt::format("this computer cannot hold a memory of {} bytes", timing.size.count()));
+  if (timing.holds_data) {
+    // calloc: pages that nobody writes take no memory.
+    bytes_.reset(static_cast<std::uint8_t*>(std::calloc(static_cast<std::size_t>(timing.size.count()), 1)));
+    if (bytes_ == nullptr) {
+      throw UserError(fmt::format("this computer cannot hold a memory of {} bytes", timing.size.count()));
+    }
   }
   socket.register_nb_transport_fw(this, &Memory::nb_transport_fw);
   socket.register_b_transport(this, &Memory::b_transport);
@@ -87,7 +89,7 @@ void Memory::b_transport(int id, ::tlm::tlm_generic_payload& payload, sc_core::s
 }
 
 unsigned Memory::transport_dbg(int, ::tlm::tlm_generic_payload& payload) {
-  return access(payload) ? payload.get_data_length() : 0;
+  return timing_.holds_data && access(payload) ? payload.get_data_length() : 0;
 }
 
 bool Memory::access(::tlm::tlm_generic_payload& payload) {
@@ -104,9 +106,11 @@ bool Memory::access(::tlm::tlm_generic_payload& payload) {
     payload.set_response_status(::tlm::TLM_BURST_ERROR_RESPONSE);
     return false;
   }
-  std::uint8_t* place = bytes_.get() + payload.get_address();
-  if (payload.is_read()) std::memcpy(payload.get_data_ptr(), place, payload.get_data_length());
-  if (payload.is_write()) std::memcpy(place, payload.get_data_ptr(), payload.get_data_length());
+  if (timing_.holds_data) {
+    std::uint8_t* place = bytes_.get() + payload.get_address();
+    if (payload.is_read()) std::memcpy(payload.get_data_ptr(), place, payload.get_data_length());
+    if (payload.is_write()) std::memcpy(place, payload.get_data_ptr(), payload.get_data_length());
+  }
   payload.set_response_status(::tlm::TLM_OK_RESPONSE);
   return true;
 }

@@ -25,6 +25,7 @@ struct MemoryTiming {
   Cycles latency{0};              ///< from the start of service to the first data
   std::uint32_t queue_depth = 4;  ///< requests waiting per port; a further one is not taken yet
   Arbitration arbitration = Arbitration::kRoundRobin;  ///< fixed priority: the port bound first wins
+  bool holds_data = true;  ///< false: times requests only; what is written is lost, what is read is left alone
 };
 
 /// What went through one port.

@@ -9,10 +9,10 @@
 
 namespace parallax {
 
-/// One number (or word) of a result, with all that a reader needs to understand it.
+/// One number (or word, or row of numbers) of a result, with all that a reader needs to understand it.
 struct Metric {
   std::string name;
-  std::variant<std::int64_t, double, std::string, bool> value;
+  std::variant<std::int64_t, double, std::string, bool, std::vector<std::int64_t>> value;
   std::string unit;         ///< empty for a word
   std::string description;  ///< one sentence
   std::string window;       ///< over what it was measured, for example "frames 2 to 4"

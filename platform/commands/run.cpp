@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdio>
 #include <exception>
 #include <limits>
 #include <memory>
@@ -13,9 +12,10 @@
 
 #include "platform/commands/command_context.hpp"
 #include "platform/commands/interruption.hpp"
+#include "platform/commands/run_input.hpp"
+#include "platform/commands/vary.hpp"
 #include "platform/config/config_writer.hpp"
 #include "platform/config/preset.hpp"
-#include "platform/input/frame_source.hpp"
 #include "platform/input/image_padding.hpp"
 #include "platform/input/rectification_choice.hpp"
 #include "platform/machine.hpp"
@@ -30,82 +30,8 @@
 namespace parallax {
 namespace {
 
-constexpr std::int64_t kMostFrames = 1'000'000'000;
-// After the warm-up: two frame periods lie between three arrivals at the host.
-constexpr std::int64_t kMeasuredFrames = 3;
 constexpr int kMachineStuck = 1;
 constexpr int kSignalled = 128;  // as shells report a program that a signal ended
-
-ImageLimits limits(const MachineConfig& config) {
-  return {static_cast<int>(config.image.max_width), static_cast<int>(config.image.max_height)};
-}
-
-std::unique_ptr<FrameSource> scene(const RunOptions& options, const MachineConfig& config) {
-  if (!options.ground_truth.empty() || !options.mask.empty()) {
-    throw UserError(
-        "--ground-truth and --mask go with --left and --right; the built-in scene brings its own");
-  }
-  SceneConfig scene_config = options.scene;
-  if (config.image.width != 0) scene_config.width = static_cast<int>(config.image.width);
-  if (config.image.height != 0) scene_config.height = static_cast<int>(config.image.height);
-  if (!options.size.empty()) {
-    if (config.image.width != 0 || config.image.height != 0) {
-      throw UserError(
-          "--size and image.width or image.height exclude each other: both say how large the scene is");
-    }
-    char rest = 0;
-    if (std::sscanf(options.size.c_str(), "%5dx%5d%c", &scene_config.width, &scene_config.height, &rest) !=
-        2) {
-      throw UserError(fmt::format("--size: '{}' is not a size such as 640x480", options.size));
-    }
-  }
-  scene_config.disparities = config.matching.range().count;
-  scene_config.disparity_offset = config.matching.disparity_offset;
-  scene_config.distortion = !options.rectified;
-  scene_config.validate();
-  return scene_source(scene_config, options.frames.value_or(1));
-}
-
-std::unique_ptr<FrameSource> open_source(const RunOptions& options, const MachineConfig& config,
-                                         const NoticeSink& notice) {
-  if (options.left.empty() != options.right.empty()) {
-    throw UserError(fmt::format("{} is missing: a pair needs --left and --right",
-                                options.left.empty() ? "--left" : "--right"));
-  }
-  if (!options.left.empty() && !options.input.empty())
-    throw UserError("--input and --left/--right exclude each other");
-  const auto count = [](const char* option, std::int64_t value) {
-    if (value >= 1 && value <= kMostFrames) return;
-    throw UserError(fmt::format("{} is {}, allowed is 1 to {}", option, value, kMostFrames));
-  };
-  count("--frames", options.frames.value_or(1));
-  count("--timing-frames", options.timing_frames.value_or(1));
-  if (!options.mask.empty() && options.ground_truth.empty()) throw UserError("--mask needs --ground-truth");
-  if (options.fit && options.calibration.empty()) throw UserError("--fit needs --calibration");
-  if (!options.map.empty() && !options.calibration.empty()) {
-    throw UserError("--map and --calibration exclude each other: both say how to rectify");
-  }
-  if (options.left.empty() && options.input.empty()) return scene(options, config);
-  if (!options.size.empty() || options.rectified) {
-    throw UserError("--size and --rectified are for the built-in scene, but images are given");
-  }
-  if (options.scene.seed != SceneConfig{}.seed) {
-    throw UserError("--seed is for the built-in scene, but images are given");
-  }
-  std::vector<ImagePair> pairs = options.input.empty() ? std::vector<ImagePair>{{options.left, options.right}}
-                                                       : find_image_pairs(options.input);
-  auto source = file_source(std::move(pairs), limits(config), options.frames.value_or(0),
-                            options.ground_truth, options.mask, notice);
-  const auto demand = [&](const char* key, std::uint32_t wanted, int found) {
-    if (wanted != 0 && static_cast<int>(wanted) != found) {
-      throw UserError(fmt::format("{} = {}, but {} has {} px; 0 takes it from the images", key, wanted,
-                                  source->name(), found));
-    }
-  };
-  demand("image.width", config.image.width, source->width());
-  demand("image.height", config.image.height, source->height());
-  return source;
-}
 
 // One run: what the machine asks for and hands over, frame by frame.
 class Run {
@@ -122,9 +48,7 @@ class Run {
         padded_(padded_size(size_, granularity_)),
         rectification_(choose_rectification(options, configuration_.machine.rectification.range, *source_,
                                             padded_, notice_)),
-        total_frames_(std::max(
-            source_->frames(),
-            options.timing_frames.value_or(warm_up_frames(configuration_.machine) + kMeasuredFrames))) {
+        total_frames_(frames_to_simulate(configuration_.machine, source_->frames(), options.timing_frames)) {
     if (const std::string line = padding_notice(size_, granularity_); !line.empty()) note(line);
     const DisparityRange range = configuration_.machine.matching.range();
     writing_.colors = {range.offset, range.last()};
@@ -142,6 +66,7 @@ class Run {
     input.height = padded_.height;
     input.map = &rectification_.map;
     input.frames = total_frames_;
+    input.timing_only = options_.timing_only;
     input.expose = [&](std::int64_t frame) {
       if (interruption.requested()) stop();
       return guarded(frame, [&] { return expose(frame); });
@@ -192,7 +117,7 @@ class Run {
   }
 
   StereoFrame expose(std::int64_t frame) {
-    if (frame >= source_->frames()) return {};
+    if (options_.timing_only || frame >= source_->frames()) return {};
     const StereoImages images = pad_images(source_->load(frame), granularity_);
     const auto pixels = [](const cv::Mat& image) {
       return std::make_shared<const std::vector<Gray>>(image.begin<Gray>(), image.end<Gray>());
@@ -270,6 +195,9 @@ class Run {
 
 }  // namespace
 
-int run(const RunOptions& options, CommandContext& context) { return Run(options, context).execute(); }
+int run(const RunOptions& options, CommandContext& context) {
+  check_options(options);
+  return options.vary.empty() ? Run(options, context).execute() : vary(options, context);
+}
 
 }  // namespace parallax

@@ -80,6 +80,18 @@ void add_run_command(CLI::App& app, CommandContext& context) {
       .add_flag("--fit", options->fit, "Zoom and shift the rectified images until the offsets fit the window")
       ->group("Rectification");
 
+  command
+      .add_flag("--timing-only", options->timing_only,
+                "Compute no images, only when everything happens: the same dates, much sooner")
+      ->group("Timing");
+  command
+      .add_option("--vary", options->vary,
+                  "With --timing-only: one run for each value of a configuration key; repeated, for each "
+                  "combination, the last key changing fastest")
+      ->type_name("KEY=VALUE,...")
+      ->allow_extra_args(false)
+      ->take_all()
+      ->group("Timing");
   command.add_option("--out", options->out, "Folder for the results; without it only the summary is printed")
       ->check(not_empty())
       ->type_name("DIR")
@@ -90,7 +102,7 @@ void add_run_command(CLI::App& app, CommandContext& context) {
           "--timing-frames", options->timing_frames,
           "Least number of frames to simulate; beyond the input, frames are timed without images. If not "
           "given: so many that all buffers have been full, and three more")
-      ->group("Output");
+      ->group("Timing");
   add_json_option(command, options->json);
   add_configuration_options(command, options->configuration);
   command.callback(

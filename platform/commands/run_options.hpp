@@ -31,6 +31,8 @@ struct RunOptions {
   std::string map;
   bool fit = false;
   // Output.
+  bool timing_only = false;       ///< no images are computed
+  std::vector<std::string> vary;  ///< "key=v1,v2,...": a grid of timing-only runs
   std::filesystem::path out;
   bool point_cloud = true;
   bool json = false;

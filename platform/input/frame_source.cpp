@@ -33,28 +33,37 @@ Calibration calibration_of(const SceneCalibration& scene) {
 
 class SceneSource final : public FrameSource {
  public:
-  SceneSource(const SceneConfig& config, std::int64_t frames)
-      : config_(config), scene_(config), frames_(frames) {}
+  SceneSource(const SceneConfig& config, std::int64_t frames) : config_(config), frames_(frames) {
+    config.validate();
+  }
 
   std::int64_t frames() const override { return frames_; }
   int width() const override { return config_.width; }
   int height() const override { return config_.height; }
   std::string name() const override { return "the built-in scene"; }
-  StereoImages load(std::int64_t frame) override { return scene_.render(static_cast<int>(frame)); }
+  StereoImages load(std::int64_t frame) override { return scene().render(static_cast<int>(frame)); }
   std::optional<GroundTruth> truth(std::int64_t frame) override {
-    const SceneTruth scene = scene_.truth(static_cast<int>(frame));
+    const SceneTruth seen = scene().truth(static_cast<int>(frame));
     GroundTruth truth;
     truth.width = config_.width;
     truth.height = config_.height;
-    truth.disparity.assign(scene.disparity.begin<std::uint16_t>(), scene.disparity.end<std::uint16_t>());
-    truth.mask.assign(scene.mask.begin<std::uint8_t>(), scene.mask.end<std::uint8_t>());
+    truth.disparity.assign(seen.disparity.begin<std::uint16_t>(), seen.disparity.end<std::uint16_t>());
+    truth.mask.assign(seen.mask.begin<std::uint8_t>(), seen.mask.end<std::uint8_t>());
     return truth;
   }
-  std::optional<Calibration> calibration() const override { return calibration_of(scene_.calibration()); }
+  std::optional<Calibration> calibration() const override {
+    return calibration_of(scene_calibration(config_));
+  }
 
  private:
+  // Its textures and the rays of its cameras take time and memory; who asks for no image does without.
+  const Scene& scene() {
+    if (!scene_) scene_.emplace(config_);
+    return *scene_;
+  }
+
   SceneConfig config_;
-  Scene scene_;
+  std::optional<Scene> scene_;
   std::int64_t frames_;
 };
 

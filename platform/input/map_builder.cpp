@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 
 #include "platform/input/map_fit.hpp"
@@ -30,14 +31,25 @@ std::string remedy(const Calibration& calibration, const OffsetRange& range) {
 }  // namespace
 
 RectificationMap build_map(const Calibration& calibration, const OffsetRange& range) {
+  RectificationMap map = identity_map(calibration.size.width, calibration.size.height, range);
+  OffsetPair* next = map.offsets.data();
+  build_map_rows(calibration, range,
+                 [&](const OffsetPair* row) { next = std::copy_n(row, map.width, next); });
+  return map;
+}
+
+void build_map_rows(const Calibration& calibration, const OffsetRange& range,
+                    const RowSink<OffsetPair>& emit) {
   range.validate();
-  const RawMaps maps = raw_maps(calibration);
-  const WindowSurvey found = survey(maps, range);
+  WindowSurvey found;
+  for_each_band(calibration, [&](const RawMaps& band) {
+    found.add(band, range);
+    if (found.fits()) quantise_rows(band, range, emit);
+  });
   if (!found.fits()) {
     throw UserError(
-        fmt::format("{}: {}", calibration.source, describe(found, maps, range, remedy(calibration, range))));
+        fmt::format("{}: {}", calibration.source, describe(found, range, remedy(calibration, range))));
   }
-  return quantise(maps, range);
 }
 
 RectificationMap build_map(const RawMaps& maps, const OffsetRange& range, const std::string& source) {
@@ -45,7 +57,7 @@ RectificationMap build_map(const RawMaps& maps, const OffsetRange& range, const 
   const WindowSurvey found = survey(maps, range);
   if (!found.fits()) {
     throw UserError(
-        fmt::format("{}: {}", source, describe(found, maps, range, ", or maps of another zoom or shift")));
+        fmt::format("{}: {}", source, describe(found, range, ", or maps of another zoom or shift")));
   }
   return quantise(maps, range);
 }

@@ -14,6 +14,11 @@ namespace parallax {
 /// fit.
 RectificationMap build_map(const Calibration& calibration, const OffsetRange& range);
 
+/// The same, row by row from the top, without holding the map. When it throws, some rows may have been handed
+/// out.
+void build_map_rows(const Calibration& calibration, const OffsetRange& range,
+                    const RowSink<OffsetPair>& emit);
+
 /// The map of raw x and y maps; `source` names them in messages.
 RectificationMap build_map(const RawMaps& maps, const OffsetRange& range, const std::string& source);
 

@@ -76,22 +76,32 @@ Calibration moved(const Calibration& calibration, const Fit& fit) {
   return c;
 }
 
-double outside_share(const RawMaps& maps) {
-  std::size_t outside = 0;
-  const auto count = [&outside](const cv::Mat& map_x, const cv::Mat& map_y) {
-    const auto right = static_cast<float>(map_x.cols - 1);
-    const auto bottom = static_cast<float>(map_x.rows - 1);
-    for (int y = 0; y < map_x.rows; ++y) {
-      for (int x = 0; x < map_x.cols; ++x) {
-        const float source_x = map_x.at<float>(y, x);
-        const float source_y = map_y.at<float>(y, x);
-        outside += source_x < 0 || source_x > right || source_y < 0 || source_y > bottom ? 1U : 0U;
-      }
+// Pixels of the band whose source lies outside the raw image.
+std::size_t outside(const cv::Mat& map_x, const cv::Mat& map_y, const ImageSize& size) {
+  std::size_t count = 0;
+  const auto right = static_cast<float>(size.width - 1);
+  const auto bottom = static_cast<float>(size.height - 1);
+  for (int y = 0; y < map_x.rows; ++y) {
+    for (int x = 0; x < map_x.cols; ++x) {
+      const float source_x = map_x.at<float>(y, x);
+      const float source_y = map_y.at<float>(y, x);
+      count += source_x < 0 || source_x > right || source_y < 0 || source_y > bottom ? 1U : 0U;
     }
-  };
-  count(maps.left_x, maps.left_y);
-  count(maps.right_x, maps.right_y);
-  return static_cast<double>(outside) / (2.0 * static_cast<double>(maps.left_x.total()));
+  }
+  return count;
+}
+
+// Whether every pixel of the fit is within the window; then says how many lie outside the raw images.
+bool verify(Fit& fit, const OffsetRange& range) {
+  WindowSurvey found;
+  std::size_t count = 0;
+  for_each_band(fit.calibration, [&](const RawMaps& band) {
+    found.add(band, range);
+    count += outside(band.left_x, band.left_y, fit.calibration.size) +
+             outside(band.right_x, band.right_y, fit.calibration.size);
+  });
+  fit.outside = static_cast<double>(count) / (2.0 * static_cast<double>(found.pixels));
+  return found.fits();
 }
 
 class Search {
@@ -215,11 +225,7 @@ std::optional<Fit> fit(const Calibration& calibration, const OffsetRange& range)
         break;
       }
       found->calibration = moved(calibration, *found);
-      const RawMaps maps = raw_maps(found->calibration);
-      if (survey(maps, range).fits()) {
-        found->outside = outside_share(maps);
-        return found;
-      }
+      if (verify(*found, range)) return found;
       // Between the samples an offset was larger: search again a little tighter.
       reach -= 0.1;
     }

@@ -13,18 +13,37 @@
 namespace parallax {
 namespace {
 
-RectificationMap padded(const RectificationMap& map, const cv::Size& size) {
-  RectificationMap larger{size.width, size.height, map.range, {}};
-  larger.offsets.reserve(static_cast<std::size_t>(size.area()));
-  for (int y = 0; y < size.height; ++y) {
-    const OffsetPair* row = map.row(std::min(y, map.height - 1));
-    for (int x = 0; x < size.width; ++x) larger.offsets.push_back(row[std::min(x, map.width - 1)]);
-  }
-  return larger;
-}
+// Compresses the map of an image for the larger one that is processed: its offsets repeat the last column's
+// and the last row's.
+class PaddedMap {
+ public:
+  PaddedMap(const FrameSource& source, const cv::Size& processed, const OffsetRange& range)
+      : width_(source.width()),
+        height_(source.height()),
+        processed_(processed),
+        encoder_(processed.width, processed.height, range),
+        row_(static_cast<std::size_t>(processed.width)) {}
 
-RectificationMap map_of_file(const std::string& path, const OffsetRange& range, const FrameSource& source) {
-  const EncodedMap encoded = read_map_file(path);
+  void push(const OffsetPair* row) {
+    const auto end = std::copy_n(row, width_, row_.begin());
+    std::fill(end, row_.end(), row[width_ - 1]);
+    encoder_.push(row_.data());
+  }
+  EncodedMap take() {
+    for (int y = height_; y < processed_.height; ++y) encoder_.push(row_.data());
+    return encoder_.take();
+  }
+
+ private:
+  int width_;
+  int height_;
+  cv::Size processed_;
+  MapEncoder encoder_;
+  std::vector<OffsetPair> row_;
+};
+
+EncodedMap map_of_file(const std::string& path, const OffsetRange& range, const FrameSource& source) {
+  EncodedMap encoded = read_map_file(path);
   if (encoded.width != source.width() || encoded.height != source.height()) {
     throw UserError(fmt::format("{}: a map of {}x{} px, but the images have {}x{}", path, encoded.width,
                                 encoded.height, source.width(), source.height()));
@@ -35,11 +54,7 @@ RectificationMap map_of_file(const std::string& path, const OffsetRange& range, 
         "rectification.fraction_bits {}; set the keys, or encode the map anew",
         path, encoded.range.window, encoded.range.fraction_bits, range.window, range.fraction_bits));
   }
-  try {
-    return decode(encoded);
-  } catch (const UserError& error) {
-    throw UserError(fmt::format("{}: {}", path, error.what()));
-  }
+  return encoded;
 }
 
 Calibration given_calibration(const RunOptions& options, const OffsetRange& range, const FrameSource& source,
@@ -65,13 +80,22 @@ RectificationChoice choose_rectification(const RunOptions& options, const Offset
   if (!options.calibration.empty()) calibration = given_calibration(options, range, source, notice);
   RectificationChoice choice;
   if (calibration && calibration->metric()) choice.q = calibration->Q;
-  RectificationMap map = identity_map(source.width(), source.height(), range);
+  PaddedMap map(source, processed, range);
+  const RowSink<OffsetPair> push = [&map](const OffsetPair* row) { map.push(row); };
   if (!options.map.empty()) {
-    map = map_of_file(options.map, range, source);
+    const EncodedMap file = map_of_file(options.map, range, source);
+    try {
+      decode_rows(file, push);
+    } catch (const UserError& error) {
+      throw UserError(fmt::format("{}: {}", options.map, error.what()));
+    }
   } else if (calibration && calibration->model != LensModel::kRectified) {
-    map = build_map(*calibration, range);
+    build_map_rows(*calibration, range, push);
+  } else {
+    const std::vector<OffsetPair> zeros(static_cast<std::size_t>(source.width()));
+    for (int y = 0; y < source.height(); ++y) push(zeros.data());
   }
-  choice.map = encode(padded(map, processed));
+  choice.map = map.take();
   return choice;
 }
 

@@ -14,6 +14,9 @@ constexpr double kSaturated = 0.95;
 // Parts that a slower one feeds run at its pace; those within this share of the largest load count as one.
 constexpr double kSamePace = 0.99;
 
+// After the warm-up: two frame periods lie between three arrivals at the host.
+constexpr std::int64_t kMeasuredFrames = 3;
+
 Cycles cycles_between(const ClockDomain& clock, const sc_core::sc_time& from, const sc_core::sc_time& to) {
   return clock.cycle_at_or_after(to) - clock.cycle_at_or_after(from);
 }
@@ -34,6 +37,11 @@ const PartLoad& first_at_largest(const std::vector<PartLoad>& loads) {
 
 std::int64_t warm_up_frames(const MachineConfig& config) {
   return std::int64_t{config.camera.frame_buffers} + config.link.output_buffers;
+}
+
+std::int64_t frames_to_simulate(const MachineConfig& config, std::int64_t input_frames,
+                                std::optional<std::int64_t> asked) {
+  return std::max(input_frames, asked.value_or(warm_up_frames(config) + kMeasuredFrames));
 }
 
 SteadyWindow steady_window(const Machine& machine) {

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +24,11 @@ struct SteadyWindow {
 /// Frames until all buffers have been filled and handed on once; before that the rate is that of buffers
 /// filling.
 std::int64_t warm_up_frames(const MachineConfig& config);
+
+/// Frames that a run simulates: all of the input, and at least `asked`; if nothing is asked, so many that two
+/// frame periods lie after the warm-up.
+std::int64_t frames_to_simulate(const MachineConfig& config, std::int64_t input_frames,
+                                std::optional<std::int64_t> asked);
 
 /// All frames of a run after the warm-up; where the run is shorter than that, its last two.
 SteadyWindow steady_window(const Machine& machine);

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "platform/results/limits.hpp"
+#include "platform/results/stage_time.hpp"
 #include "platform/version.hpp"
 
 namespace parallax {
@@ -117,37 +118,84 @@ double share_of(const std::vector<PartLoad>& loads, const std::string& part) {
   return found == loads.end() ? 0 : found->share;
 }
 
+// Whole cycles, and shares of one decimal that sum to 100.
+void add_stage_time(MetricGroup& group, const StageTime& time, const std::string& window) {
+  struct Part {
+    const char* name;
+    Cycles cycles;
+    const char* description;
+  };
+  const std::vector<Part> parts{
+      {"busy", time.busy, "At work with a token on some port."},
+      {"starved", time.starved, "Held back by an empty input from another stage."},
+      {"blocked", time.blocked, "Held back by a full output to another stage (back-pressure)."},
+      {"memory", time.memory, "Held back by a stream from or to a memory port, within a frame."},
+      {"blanking", time.blanking, "Declared row and frame overhead, and waiting for a frame to begin."}};
+  group.add(
+      {"window", time.whole.count(), "cycles",
+       "From the stage's first firing for the window's first frame to that for its last: the sum of the five "
+       "below.",
+       window});
+  std::vector<std::int64_t> cycles;
+  for (const Part& part : parts) {
+    group.add({part.name, part.cycles.count(), "cycles", part.description, window});
+    cycles.push_back(part.cycles.count());
+  }
+  const std::vector<std::int64_t> tenths = shares_in_tenths(cycles);
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    group.add({std::string(parts[i].name) + "_share", static_cast<double>(tenths[i]) / 10.0, "%",
+               "The same as a share of the window; the five are rounded so that they sum to 100.0.", window});
+  }
+}
+
+void add_stream(MetricGroup& group, const StreamBase& stream) {
+  const std::string all = "the whole run";
+  const StreamStatistics& s = stream.statistics();
+  const Occupancy& held = stream.occupancy();
+  const auto cycles = static_cast<double>(std::max<std::uint64_t>(1, held.total()));
+  const auto percent = [cycles](std::uint64_t part) { return 100.0 * static_cast<double>(part) / cycles; };
+  group.add({"depth", std::int64_t{stream.depth()}, "tokens", "Places of the FIFO.", ""});
+  group.add({"width", stream.width().count(), "bit", "Of a token.", ""});
+  group.add({"tokens", static_cast<std::int64_t>(s.written), "tokens", "Written.", all});
+  group.add({"high_water", static_cast<std::int64_t>(s.high_water), "tokens", "Largest number held.", all});
+  group.add({"mean_occupancy", held.mean(), "tokens", "Held on average over the time.", all});
+  group.add({"full", percent(held.full()), "%", "Share of the time without a free place.", all});
+  group.add({"empty", percent(held.empty()), "%", "Share of the time without a token.", all});
+  group.add({"blocked_on_full", s.blocked_on_full.count(), "cycles",
+             "Writer's cycles in which this FIFO alone held it back, being full.", all});
+  group.add({"starved_on_empty", s.starved_on_empty.count(), "cycles",
+             "Reader's cycles in which this FIFO alone held it back, being empty.", all});
+  std::vector<std::int64_t> bins;
+  for (std::size_t bin = 0; bin < held.bins(); ++bin)
+    bins.push_back(static_cast<std::int64_t>(held.cycles(bin)));
+  while (!bins.empty() && bins.back() == 0) bins.pop_back();
+  group.add({"occupancy_bin", static_cast<std::int64_t>(held.bin_width()), "tokens",
+             "Levels in a bin of the histogram.", ""});
+  group.add(
+      {"occupancy", std::move(bins), "cycles",
+       "Writer's cycles at each level, from 0 tokens up, occupancy_bin levels together; bins above the last "
+       "that occurred are left out.",
+       all});
+}
+
 void add_pipeline(MetricGroup& root, const Machine& machine, const SteadyWindow& window) {
   const std::string all = "the whole run";
   const std::vector<PartLoad> loads =
       window.frames() == 0 ? std::vector<PartLoad>{} : part_loads(machine, window);
   MetricGroup& stages = root.group("stages");
   for (const StageInfo& info : machine.pipeline().stages()) {
-    const StageStatistics& s = info.stage->statistics();
     MetricGroup& group = stages.group(info.stage->basename());
     const double cycles = static_cast<double>(info.stage->schedule().cycles());
     group.add({"cycles_per_frame", cycles, "cycles",
                "Cycles of a frame without any wait, by the declared intervals.", ""});
     group.add(
         {"utilisation", 100.0 * share_of(loads, info.stage->basename()), "%", "Of the time.", window.text});
-    group.add({"busy", s.busy.count(), "cycles", "At work with a token on some port.", all});
-    group.add({"idle", s.blanking.count(), "cycles", "Declared row and frame overhead.", all});
-    group.add({"starved", s.starved.count(), "cycles", "Held back by an empty input.", all});
-    group.add({"blocked", s.blocked.count(), "cycles", "Held back by a full output.", all});
+    add_stage_time(group, stage_time(*info.stage, window), window.frames() == 0 ? all : window.text);
     group.add({"storage", info.storage.count(), "bit", "Line buffers and the like, without FIFOs.", ""});
   }
   MetricGroup& streams = root.group("streams");
   for (const StreamBase* stream : machine.dataflow().streams()) {
-    const StreamStatistics& s = stream->statistics();
-    MetricGroup& group = streams.group(stream->basename());
-    group.add({"depth", std::int64_t{stream->depth()}, "tokens", "Places of the FIFO.", ""});
-    group.add({"width", stream->width().count(), "bit", "Of a token.", ""});
-    group.add({"tokens", static_cast<std::int64_t>(s.written), "tokens", "Written.", all});
-    group.add({"high_water", static_cast<std::int64_t>(s.high_water), "tokens", "Largest number held.", all});
-    group.add({"blocked_on_full", s.blocked_on_full.count(), "cycles", "Writer's cycles lost to a full FIFO.",
-               all});
-    group.add({"starved_on_empty", s.starved_on_empty.count(), "cycles",
-               "Reader's cycles lost to an empty FIFO.", all});
+    add_stream(streams.group(stream->basename()), *stream);
   }
 }
 

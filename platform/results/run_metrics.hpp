@@ -31,7 +31,7 @@ MetricGroup measure(const Machine& machine, const RunTotals& totals, int image_w
 /// The summary that a person reads, from that tree.
 std::string summary(const MetricGroup& metrics);
 
-/// A line for each stage of the pipeline: where its cycles went.
+/// A line for each stage of the pipeline, where its cycles went, and for each stream, how full it was.
 std::string stage_summary(const MetricGroup& metrics);
 
 }  // namespace parallax

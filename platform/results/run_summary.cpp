@@ -107,12 +107,25 @@ std::string summary(const MetricGroup& m) {
 std::string stage_summary(const MetricGroup& m) {
   std::string text;
   for (const MetricGroup& group : m.groups) {
-    if (group.name != "stages") continue;
-    for (const MetricGroup& stage : group.groups) {
-      text += fmt::format(
-          "stage {:<18}{:>6.1f} % at work; {:.0f} cycles busy, {:.0f} idle, {:.0f} starved, {:.0f} blocked\n",
-          stage.name, number(stage, "utilisation"), number(stage, "busy"), number(stage, "idle"),
-          number(stage, "starved"), number(stage, "blocked"));
+    if (group.name == "stages") {
+      for (const MetricGroup& stage : group.groups) {
+        text += fmt::format(
+            "stage  {:<20}{:>5.1f} % busy, {:>5.1f} % starved, {:>5.1f} % blocked, {:>5.1f} % memory, "
+            "{:>5.1f} % "
+            "blanking of {:.0f} cycles\n",
+            stage.name, number(stage, "busy_share"), number(stage, "starved_share"),
+            number(stage, "blocked_share"), number(stage, "memory_share"), number(stage, "blanking_share"),
+            number(stage, "window"));
+      }
+    } else if (group.name == "streams") {
+      for (const MetricGroup& stream : group.groups) {
+        text += fmt::format(
+            "stream {:<20}depth {:>6.0f} of {:>4.0f} bit, held {:>8.1f} mean, {:>6.0f} largest; full "
+            "{:>5.1f} %, "
+            "empty {:>5.1f} % of the time\n",
+            stream.name, number(stream, "depth"), number(stream, "width"), number(stream, "mean_occupancy"),
+            number(stream, "high_water"), number(stream, "full"), number(stream, "empty"));
+      }
     }
   }
   return text;

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "platform/commands/run_input.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <utility>
+
+#include "platform/input/image_pairs.hpp"
+#include "tlm/error.hpp"
+
+namespace parallax {
+namespace {
+
+constexpr std::int64_t kMostFrames = 1'000'000'000;
+
+ImageLimits limits(const MachineConfig& config) {
+  return {static_cast<int>(config.image.max_width), static_cast<int>(config.image.max_height)};
+}
+
+std::unique_ptr<FrameSource> scene(const RunOptions& options, const MachineConfig& config) {
+  SceneConfig scene_config = options.scene;
+  if (config.image.width != 0) scene_config.width = static_cast<int>(config.image.width);
+  if (config.image.height != 0) scene_config.height = static_cast<int>(config.image.height);
+  if (!options.size.empty()) {
+    if (config.image.width != 0 || config.image.height != 0) {
+      throw UserError(
+          "--size and image.width or image.height exclude each other: both say how large the scene is");
+    }
+    char rest = 0;
+    if (std::sscanf(options.size.c_str(), "%5dx%5d%c", &scene_config.width, &scene_config.height, &rest) !=
+        2) {
+      throw UserError(fmt::format("--size: '{}' is not a size such as 640x480", options.size));
+    }
+  }
+  scene_config.disparities = config.matching.range().count;
+  scene_config.disparity_offset = config.matching.disparity_offset;
+  scene_config.distortion = !options.rectified;
+  scene_config.validate();
+  return scene_source(scene_config, options.frames.value_or(1));
+}
+
+// What computes no images has no use for what is about them.
+void check_timing_only(const RunOptions& options) {
+  if (!options.timing_only) {
+    if (!options.vary.empty()) throw UserError("--vary needs --timing-only");
+    return;
+  }
+  const auto refuse = [](const char* option, bool given) {
+    if (given) throw UserError(fmt::format("--timing-only computes no images: it cannot go with {}", option));
+  };
+  refuse("--ground-truth", !options.ground_truth.empty());
+  refuse("--mask", !options.mask.empty());
+  refuse("--no-point-cloud", !options.point_cloud);
+}
+
+}  // namespace
+
+void check_options(const RunOptions& options) {
+  check_timing_only(options);
+  if (options.left.empty() != options.right.empty()) {
+    throw UserError(fmt::format("{} is missing: a pair needs --left and --right",
+                                options.left.empty() ? "--left" : "--right"));
+  }
+  if (!options.left.empty() && !options.input.empty())
+    throw UserError("--input and --left/--right exclude each other");
+  const auto count = [](const char* option, std::int64_t value) {
+    if (value >= 1 && value <= kMostFrames) return;
+    throw UserError(fmt::format("{} is {}, allowed is 1 to {}", option, value, kMostFrames));
+  };
+  count("--frames", options.frames.value_or(1));
+  count("--timing-frames", options.timing_frames.value_or(1));
+  if (!options.mask.empty() && options.ground_truth.empty()) throw UserError("--mask needs --ground-truth");
+  if (options.fit && options.calibration.empty()) throw UserError("--fit needs --calibration");
+  if (!options.map.empty() && !options.calibration.empty()) {
+    throw UserError("--map and --calibration exclude each other: both say how to rectify");
+  }
+  if (options.left.empty() && options.input.empty()) {
+    if (options.ground_truth.empty()) return;
+    throw UserError(
+        "--ground-truth and --mask go with --left and --right; the built-in scene brings its own");
+  }
+  if (!options.size.empty() || options.rectified) {
+    throw UserError("--size and --rectified are for the built-in scene, but images are given");
+  }
+  if (options.scene.seed != SceneConfig{}.seed) {
+    throw UserError("--seed is for the built-in scene, but images are given");
+  }
+}
+
+std::unique_ptr<FrameSource> open_source(const RunOptions& options, const MachineConfig& config,
+                                         const NoticeSink& notice) {
+  if (options.left.empty() && options.input.empty()) return scene(options, config);
+  std::vector<ImagePair> pairs = options.input.empty() ? std::vector<ImagePair>{{options.left, options.right}}
+                                                       : find_image_pairs(options.input);
+  auto source = file_source(std::move(pairs), limits(config), options.frames.value_or(0),
+                            options.ground_truth, options.mask, notice);
+  const auto demand = [&](const char* key, std::uint32_t wanted, int found) {
+    if (wanted != 0 && static_cast<int>(wanted) != found) {
+      throw UserError(fmt::format("{} = {}, but {} has {} px; 0 takes it from the images", key, wanted,
+                                  source->name(), found));
+    }
+  };
+  demand("image.width", config.image.width, source->width());
+  demand("image.height", config.image.height, source->height());
+  return source;
+}
+
+}  // namespace parallax

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+
+#include "platform/commands/run_options.hpp"
+#include "platform/config/machine_config.hpp"
+#include "platform/input/frame_source.hpp"
+
+namespace parallax {
+
+/// Throws UserError when options contradict each other, lack what they need, or are out of range.
+void check_options(const RunOptions& options);
+
+/// The images that the user asked for, or the built-in scene; after check_options(). Throws UserError when
+/// they cannot be read, or do not fit the configuration: larger than image.max_width, of another size than
+/// image.width, ...
+std::unique_ptr<FrameSource> open_source(const RunOptions& options, const MachineConfig& config,
+                                         const NoticeSink& notice);
+
+}  // namespace parallax

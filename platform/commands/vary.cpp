@@ -1,0 +1,302 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "platform/commands/vary.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <set>
+#include <tuple>
+#include <utility>
+
+#include "platform/commands/command_context.hpp"
+#include "platform/commands/interruption.hpp"
+#include "platform/commands/run_input.hpp"
+#include "platform/config/config_writer.hpp"
+#include "platform/config/nearest_name.hpp"
+#include "platform/config/preset.hpp"
+#include "platform/config/preset_file.hpp"
+#include "platform/input/image_padding.hpp"
+#include "platform/input/rectification_choice.hpp"
+#include "platform/results/output_folder.hpp"
+#include "platform/results/progress.hpp"
+#include "platform/timing_evaluator.hpp"
+#include "tlm/error.hpp"
+
+namespace parallax {
+namespace {
+
+using Status = TimingResult::Status;
+
+constexpr std::size_t kMostPoints = 100'000;
+constexpr int kSomePointFailed = 1;
+constexpr int kSignalled = 128;  // as shells report a program that a signal ended
+
+/// A key and the values that it takes in turn, as they were written.
+struct Axis {
+  std::string key;
+  std::vector<std::string> values;
+};
+
+/// One combination of values, an assignment "key=value" for each axis.
+using Point = std::vector<std::string>;
+
+// At the commas, but not within double quotes: a set of names has commas of its own.
+std::vector<std::string> split(const std::string& text) {
+  std::vector<std::string> parts(1);
+  bool quoted = false;
+  for (const char c : text) {
+    if (c == '"') quoted = !quoted;
+    if (c == ',' && !quoted) {
+      parts.emplace_back();
+    } else {
+      parts.back() += c;
+    }
+  }
+  return parts;
+}
+
+std::vector<Axis> read_axes(const RunOptions& options, const Configuration& configuration) {
+  std::vector<std::string> keys;
+  for (const EffectiveKey& key : configuration.keys) keys.push_back(key.section + "." + key.name);
+  std::vector<Axis> axes;
+  std::size_t points = 1;
+  for (const std::string& argument : options.vary) {
+    const std::size_t equals = std::min(argument.find('='), argument.size());
+    Axis axis{argument.substr(0, equals), split(argument.substr(std::min(equals + 1, argument.size())))};
+    const bool blank =
+        std::any_of(axis.values.begin(), axis.values.end(), [](const std::string& v) { return v.empty(); });
+    if (axis.key.empty() || blank) {
+      throw UserError(fmt::format("--vary {}: must have the form key=value,value,...", argument));
+    }
+    if (std::find(keys.begin(), keys.end(), axis.key) == keys.end()) {
+      throw UserError(fmt::format("--vary {}: unknown key {}; the nearest is {}", argument, axis.key,
+                                  nearest_name(axis.key, keys)));
+    }
+    if (std::any_of(axes.begin(), axes.end(), [&](const Axis& a) { return a.key == axis.key; })) {
+      throw UserError(fmt::format("--vary {}: {} is varied twice", argument, axis.key));
+    }
+    if (axis.key == "matching.iterations" && options.configuration.disparity_range) {
+      throw UserError("--vary matching.iterations and --disparities exclude each other: both set the range");
+    }
+    points *= axis.values.size();
+    if (points > kMostPoints) {
+      throw UserError(fmt::format("--vary: more than {} combinations", kMostPoints));
+    }
+    axes.push_back(std::move(axis));
+  }
+  return axes;
+}
+
+// Every combination, the last axis changing fastest.
+std::vector<Point> combinations(const std::vector<Axis>& axes) {
+  std::vector<Point> points(1);
+  for (const Axis& axis : axes) {
+    std::vector<Point> longer;
+    for (const Point& point : points) {
+      for (const std::string& value : axis.values) {
+        longer.push_back(point);
+        longer.back().push_back(axis.key + "=" + value);
+      }
+    }
+    points = std::move(longer);
+  }
+  return points;
+}
+
+std::string value_of(const std::string& assignment) { return assignment.substr(assignment.find('=') + 1); }
+
+// {"key": value}; what no key can hold stays text.
+nlohmann::ordered_json as_json(const std::string& assignment) {
+  const auto [key, raw] = read_assignment(assignment);
+  const auto* value = std::get_if<ConfigValue>(&raw.value);
+  if (value == nullptr) return {{key, value_of(assignment)}};
+  return {{key, std::visit([](const auto& held) { return nlohmann::ordered_json(held); }, *value)}};
+}
+
+/// The input as the machines of the grid see it. Images are opened anew only when a key about their size
+/// changes, the map is built once for every window, precision and processed size.
+class GridInput {
+ public:
+  GridInput(const RunOptions& options, NoticeSink notice) : options_(options), notice_(std::move(notice)) {}
+
+  /// Throws UserError when the images cannot be read, or the configuration and the input do not go together.
+  void open(const MachineConfig& config) { source_for(config); }
+  TimingInput prepare(const MachineConfig& config) {
+    const FrameSource& source = source_for(config);
+    TimingInput input;
+    input.width = source.width();
+    input.height = source.height();
+    input.map = &map_for(config, source);
+    input.frames = source.frames();
+    input.timing_frames = options_.timing_frames;
+    if (options_.left.empty() && options_.input.empty()) input.scene_seed = options_.scene.seed;
+    return input;
+  }
+
+ private:
+  using SourceKey = std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, std::uint32_t, int, int>;
+  using MapKey = std::tuple<int, int, int, int, int, int>;
+
+  const FrameSource& source_for(const MachineConfig& config) {
+    const bool scene = options_.left.empty() && options_.input.empty();
+    const DisparityRange range = scene ? config.matching.range() : DisparityRange{};
+    const ImageConfig& image = config.image;
+    const SourceKey key{image.width,      image.height, image.max_width,
+                        image.max_height, range.offset, range.count};
+    if (source_ == nullptr || key != source_key_) {
+      source_ = open_source(options_, config, notice_);
+      source_key_ = key;
+    }
+    return *source_;
+  }
+
+  const EncodedMap& map_for(const MachineConfig& config, const FrameSource& source) {
+    const cv::Size size(source.width(), source.height());
+    const Granularity granularity{static_cast<int>(config.image.width_granularity),
+                                  static_cast<int>(config.image.height_granularity)};
+    const cv::Size processed = padded_size(size, granularity);
+    const OffsetRange& range = config.rectification.range;
+    const MapKey key{size.width,       size.height,  processed.width,
+                     processed.height, range.window, range.fraction_bits};
+    const auto found = maps_.find(key);
+    if (found != maps_.end()) return found->second;
+    if (const std::string line = padding_notice(size, granularity); !line.empty()) notice_(line);
+    return maps_.emplace(key, choose_rectification(options_, range, source, processed, notice_).map)
+        .first->second;
+  }
+
+  const RunOptions& options_;
+  const NoticeSink notice_;
+  std::unique_ptr<FrameSource> source_;
+  SourceKey source_key_;
+  std::map<MapKey, EncodedMap> maps_;
+};
+
+class Grid {
+ public:
+  Grid(const RunOptions& options, CommandContext& context)
+      : options_(options),
+        context_(context),
+        input_(options, [this](const std::string& line) { note(line); }) {
+    const Configuration configuration = load_configuration(options.configuration, preset_folders());
+    axes_ = read_axes(options, configuration);
+    points_ = combinations(axes_);
+    input_.open(configuration.machine);  // a wrong path is one error, not one a point
+  }
+
+  int run() {
+    const Interruption interruption;
+    if (!options_.out.empty()) folder_ = std::make_unique<OutputFolder>(options_.out);
+    const bool quiet = context_.verbosity == Verbosity::kQuiet;
+    // At a terminal the growing table is progress enough.
+    Progress progress(context_.err, options_.json && !quiet && standard_error_is_terminal(), "points",
+                      static_cast<std::int64_t>(points_.size()));
+    auto all = nlohmann::ordered_json::array();
+    int code = 0;
+    if (!options_.json && !quiet) context_.out << header();
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      TimingResult result = measure(points_[i], interruption);
+      if (result.status == Status::kInterrupted) {
+        context_.err << fmt::format("parallax: interrupted after {} of {} points\n", i, points_.size());
+        return kSignalled + interruption.signal();
+      }
+      if (result.status != Status::kDone) code = kSomePointFailed;
+      if (!options_.json && !quiet) context_.out << row(i, result) << std::flush;
+      if (folder_ && result.status == Status::kDone) {
+        folder_->write(fmt::format("point_{:04}/timing.json", i), result.metrics.dump(2) + "\n");
+        folder_->publish();
+      }
+      if (options_.json) all.push_back(entry(i, std::move(result)));
+      progress.advance();
+    }
+    if (options_.json) context_.out << all.dump(2) << '\n';
+    return code;
+  }
+
+ private:
+  void note(const std::string& line) {
+    if (context_.verbosity != Verbosity::kQuiet && said_.insert(line).second) {
+      context_.err << "parallax: note: " << line << '\n';
+    }
+  }
+
+  TimingResult measure(const Point& point, const Interruption& interruption) {
+    if (interruption.requested()) return {Status::kInterrupted, nullptr, "interrupted"};
+    try {
+      ConfigurationRequest request = options_.configuration;
+      request.assignments.insert(request.assignments.end(), point.begin(), point.end());
+      const Configuration configuration = load_configuration(request, preset_folders());
+      TimingInput input = input_.prepare(configuration.machine);
+      input.command = context_.command_line;
+      TimingResult result = TimingEvaluator(std::move(input), [&] {
+                              return interruption.requested();
+                            }).evaluate(configuration.machine);
+      if (result.status == Status::kDone) result.metrics["configuration"] = to_json(configuration, false);
+      return result;
+    } catch (const UserError& error) {
+      return {Status::kInvalid, nullptr, error.what()};
+    }
+  }
+
+  static std::size_t width(const Axis& axis) {
+    std::size_t most = axis.key.size();
+    for (const std::string& text : axis.values) most = std::max(most, text.size());
+    return most;
+  }
+
+  std::string header() const {
+    std::string line = "point";
+    for (const Axis& axis : axes_) line += fmt::format("  {:>{}}", axis.key, width(axis));
+    return line + "   frame rate      latency  limit\n";
+  }
+
+  std::string row(std::size_t index, const TimingResult& result) const {
+    std::string line = fmt::format("{:>5}", index);
+    for (std::size_t i = 0; i < axes_.size(); ++i) {
+      line += fmt::format("  {:>{}}", value_of(points_[index][i]), width(axes_[i]));
+    }
+    if (result.status != Status::kDone) {
+      // Of several lines the last one says what to do.
+      std::string message = result.message;
+      while (!message.empty() && message.back() == '\n') message.pop_back();
+      message.erase(0, message.rfind('\n') + 1);
+      message.erase(0, message.find_first_not_of(' '));
+      return line + fmt::format("  {}: {}\n", name(result.status), message);
+    }
+    const auto metric = [&](const char* group, const char* metric_name) {
+      return result.metrics.at(group).at(metric_name).at("value");
+    };
+    line += fmt::format("  {:>7.2f} fps  {:>8.3f} ms", metric("performance", "frame_rate").get<double>(),
+                        metric("latency", "exposure_to_host_mean").get<double>());
+    if (!result.metrics.contains("limit")) return line + "\n";  // one frame has no steady state
+    return line + fmt::format("  {} at {:.1f} %\n", metric("limit", "part").get<std::string>(),
+                              metric("limit", "utilisation").get<double>());
+  }
+
+  nlohmann::ordered_json entry(std::size_t index, TimingResult result) const {
+    nlohmann::ordered_json point{{"point", index}, {"status", name(result.status)}};
+    for (const std::string& assignment : points_[index]) point["set"].update(as_json(assignment));
+    if (result.status == Status::kDone) {
+      point["timing"] = std::move(result.metrics);
+    } else {
+      point["message"] = std::move(result.message);
+    }
+    return point;
+  }
+
+  const RunOptions& options_;
+  CommandContext& context_;
+  std::vector<Axis> axes_;
+  std::vector<Point> points_;
+  GridInput input_;
+  std::unique_ptr<OutputFolder> folder_;
+  std::set<std::string> said_;  // notes, once each
+};
+
+}  // namespace
+
+int vary(const RunOptions& options, CommandContext& context) { return Grid(options, context).run(); }
+
+}  // namespace parallax

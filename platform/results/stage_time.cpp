@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "platform/results/stage_time.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace parallax {
+
+StageTime stage_time(const Stage& stage, const SteadyWindow& window) {
+  if (window.frames() == 0) {
+    const StageStatistics& all = stage.statistics();
+    return {all.total(), all.busy, all.starved, all.blocked, all.memory, all.blanking};
+  }
+  const FrameDates& first = stage.frames()[window.first];
+  const FrameDates& last = stage.frames()[window.last];
+  const StageStatistics& from = first.before;
+  const StageStatistics& to = last.before;
+  return {last.first_firing - first.first_firing,
+          to.busy - from.busy,
+          to.starved - from.starved,
+          to.blocked - from.blocked,
+          to.memory - from.memory,
+          to.blanking - from.blanking};
+}
+
+std::vector<std::int64_t> shares_in_tenths(const std::vector<std::int64_t>& parts) {
+  constexpr std::int64_t kWhole = 1000;
+  std::vector<std::int64_t> shares(parts.size());
+  const std::int64_t sum = std::accumulate(parts.begin(), parts.end(), std::int64_t{0});
+  if (sum == 0) return shares;
+  std::vector<std::int64_t> remainders(parts.size());
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    shares[i] = parts[i] * kWhole / sum;  // within 64 bits up to 9 * 10^15 cycles
+    remainders[i] = parts[i] * kWhole % sum;
+  }
+  std::vector<std::size_t> order(parts.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return remainders[a] > remainders[b]; });
+  const std::int64_t missing = kWhole - std::accumulate(shares.begin(), shares.end(), std::int64_t{0});
+  for (std::int64_t i = 0; i < missing; ++i) ++shares[order[static_cast<std::size_t>(i)]];
+  return shares;
+}
+
+}  // namespace parallax
