@@ -11,6 +11,9 @@
 #include "tests/bench/max_plus_chain.hpp"
 #include "tests/bench/sc_fifo_chain.hpp"
 #include "tests/bench/stage_chain.hpp"
+#ifdef PARALLAX_VERILATED
+#include "tests/bench/verilated_chain.hpp"
+#endif
 
 namespace parallax::bench {
 namespace {
@@ -23,10 +26,11 @@ struct Mechanism {
 };
 
 constexpr Mechanism kMechanisms[] = {
-    {"stages", run_stages, true},
-    {"dated_fifo", run_dated_fifo, true},
-    {"max_plus", run_max_plus, true},
-    {"sc_fifo", run_sc_fifo, false},
+    {"stages", run_stages, true},       {"dated_fifo", run_dated_fifo, true},
+    {"max_plus", run_max_plus, true},   {"sc_fifo", run_sc_fifo, false},
+#ifdef PARALLAX_VERILATED
+    {"verilated", run_verilated, true},
+#endif
 };
 
 void measure(benchmark::State& state, const Mechanism& mechanism, const ChainLoad& load,
