@@ -3,9 +3,9 @@
 
 #include <stdexcept>
 
-#include "Vchain8_16.h"
-#include "Vchain8_2.h"
-#include "Vchain8_64.h"
+#include "Chain8Depth16.h"
+#include "Chain8Depth2.h"
+#include "Chain8Depth64.h"
 #include "tests/bench/cpu_seconds.hpp"
 
 namespace parallax::bench {
@@ -50,11 +50,11 @@ ChainRun run(const ChainLoad& load) {
 ChainRun run_verilated(const ChainLoad& load) {
   switch (load.depth) {
     case 2:
-      return run<Vchain8_2>(load);
+      return run<Chain8Depth2>(load);
     case 16:
-      return run<Vchain8_16>(load);
+      return run<Chain8Depth16>(load);
     case 64:
-      return run<Vchain8_64>(load);
+      return run<Chain8Depth64>(load);
     default:
       throw std::runtime_error("no circuit of this depth");
   }
