@@ -43,20 +43,23 @@ struct MachineRun {
 MachineRun run_machine(const Size& size, std::int64_t frames) {
   MachineRun run;
   const MachineConfig config = configuration(size);
-  const RectificationMap lens = test::lens_map(size.width, size.height, config.rectification.range);
-  const double began = cpu_seconds();
-  const EncodedMap map = encode(lens);
-  const double encoded = cpu_seconds();
+  const EncodedMap map = [&] {
+    const RectificationMap lens = test::lens_map(size.width, size.height, config.rectification.range);
+    const double began = cpu_seconds();
+    EncodedMap encoded = encode(lens);
+    run.encode = cpu_seconds() - began;
+    return encoded;
+  }();
   MachineInput input;
   input.width = size.width;
   input.height = size.height;
   input.map = &map;
   input.frames = std::max<std::int64_t>(frames, 1);
   input.expose = [](std::int64_t) { return StereoFrame{}; };
+  const double began = cpu_seconds();
   const Machine machine("machine", config, input);
   const double constructed = cpu_seconds();
-  run.encode = encoded - began;
-  run.construct = constructed - encoded;
+  run.construct = constructed - began;
   run.start_megabytes = peak_memory_megabytes();
   if (frames == 0) return run;
   sc_core::sc_start();
