@@ -773,6 +773,9 @@ void Leap::release() {
   release_asked_ = false;
   for (Member& member : members_) {
     if (member.active && !member.takes_part) continue;
+    // Woken, each says anew what it waits for.
+    for (const int l : member.in) links_[static_cast<std::size_t>(l)].stream->reader_waits_ = false;
+    for (const int l : member.out) links_[static_cast<std::size_t>(l)].stream->writer_waits_ = false;
     dataflow_.release(*member.stage);
     member.looks_still = 0;
   }
