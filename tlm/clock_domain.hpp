@@ -4,6 +4,7 @@
 #include <string>
 #include <systemc>
 
+#include "tlm/ratio.hpp"
 #include "tlm/units.hpp"
 
 namespace parallax {
@@ -38,6 +39,8 @@ class ClockDomain {
  private:
   std::string name_;
   Hertz frequency_;
+  Ratio period_;  // picoseconds a cycle
+  Ratio rate_;    // cycles a picosecond
 };
 
 }  // namespace parallax
