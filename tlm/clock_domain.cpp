@@ -30,18 +30,6 @@ ClockDomain::ClockDomain(std::string name, Hertz frequency)
       period_(kPicosecondsPerSecond, static_cast<std::uint64_t>(frequency.count())),
       rate_(static_cast<std::uint64_t>(frequency.count()), kPicosecondsPerSecond) {}
 
-sc_core::sc_time ClockDomain::time_of(Cycles cycle) const {
-  return sc_core::sc_time::from_value(period_.floor(unsigned_count(cycle)));
-}
-
-// The picosecond that edge n is rounded down to is not before `time`, a whole number of picoseconds, exactly when
-// the edge itself is not.
-Cycles ClockDomain::cycle_at_or_after(const sc_core::sc_time& time) const {
-  return Cycles(rate_.ceil(time.value()));
-}
-
-Cycles ClockDomain::now() const { return cycle_at_or_after(sc_core::sc_time_stamp()); }
-
 Cycles ClockDomain::first_edge_after(const ClockDomain& other, Cycles cycle) const {
   if (frequency_ == other.frequency_) return cycle + Cycles(1);
   const auto to = static_cast<std::uint64_t>(frequency_.count());

@@ -56,15 +56,16 @@ bool DmaEngine::have_burst() {
 }
 
 ::tlm::tlm_generic_payload& DmaEngine::take_payload(::tlm::tlm_command command) {
-  return master.pool().take(command, job_.address + first_byte(), last_byte() - first_byte());
+  return master.pool().take(command, job_.address + first_byte(), last_byte() - first_byte(), job_.values);
 }
 
 void DmaEngine::request(::tlm::tlm_generic_payload& payload, Cycles cycle) {
   at_ = last_byte();
   ++requested_;
   request_cycle_ = cycle;
+  request_time_ = clock_.time_of(cycle);
   free_ = cycle + Cycles(1);
-  master.send(payload, clock_.time_of(cycle));
+  master.send(payload, request_time_);
 }
 
 void DmaEngine::look_again(Cycles cycle) {
@@ -72,8 +73,7 @@ void DmaEngine::look_again(Cycles cycle) {
 }
 
 void DmaEngine::taken(const sc_core::sc_time& time) {
-  const bool at_once = time == clock_.time_of(request_cycle_);
-  const Cycles cycle = at_once ? request_cycle_ : clock_.cycle_at_or_after(time);
+  const Cycles cycle = time == request_time_ ? request_cycle_ : clock_.cycle_at_or_after(time);
   free_ = std::max(free_, cycle);
   request_taken(cycle);
   if (!advancing_) dataflow().wake(*this);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "tlm/bus_master.hpp"
+#include "tlm/ring.hpp"
 #include "tlm/stream.hpp"
 #include "tlm/units.hpp"
 
@@ -94,6 +95,7 @@ class DmaEngine : public sc_core::sc_module, public Actor, private BusClient {
   std::uint64_t answered_ = 0;
   Cycles free_{0};
   Cycles request_cycle_{0};  // of the last request
+  sc_core::sc_time request_time_;
   bool advancing_ = false;
 };
 
@@ -121,10 +123,10 @@ class DmaReader final : public DmaEngine {
   std::uint64_t row_start_ = 0;  // byte of the job
   Cycles last_write_{-1};
   struct Blocked {
-    int stream;  // the one that had room last
+    int stream = 0;  // the one that had room last
     Cycles cycles;
   };
-  std::deque<Blocked> blocked_;  // how long lack of room held the requests back that are under way
+  Ring<Blocked> blocked_;  // how long lack of room held the requests back that are under way
 };
 
 /// Stream to memory: writes the bursts it is given to the addresses of its jobs. A token is one burst; values

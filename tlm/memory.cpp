@@ -9,15 +9,25 @@
 #include <utility>
 
 #include "tlm/error.hpp"
+#include "tlm/traffic_only.hpp"
 
 namespace parallax {
+namespace {
+
+Picoseconds date(const sc_core::sc_time& time) { return Picoseconds(time.value()); }
+
+Picoseconds present() { return date(sc_core::sc_time_stamp()); }
+
+sc_core::sc_time time(Picoseconds date) {
+  return sc_core::sc_time::from_value(static_cast<std::uint64_t>(date.count()));
+}
+
+}  // namespace
 
 Memory::Memory(const sc_core::sc_module_name& name, const MemoryTiming& timing, const ClockDomain& clock)
     : sc_module(name),
       timing_(timing),
-      clock_(clock),
-      never_(sc_core::sc_max_time()),
-      wake_time_(never_) {
+      clock_(clock) {
   // calloc: pages that nobody writes take no memory.
   bytes_.reset(static_cast<std::uint8_t*>(std::calloc(static_cast<std::size_t>(timing.size.count()), 1)));
   if (bytes_ == nullptr) {
@@ -36,12 +46,12 @@ void Memory::Free::operator()(void* memory) const { std::free(memory); }
 
 void Memory::end_of_elaboration() {
   arbiter_.ports.resize(socket.size());
-  arbiter_.arrivals.resize(socket.size(), never_);
+  arbiter_.arrivals.resize(socket.size(), kNever);
   if (socket.size() > 0) arbiter_.last_served = socket.size() - 1;  // the first turn is the first port's
 }
 
 const MemoryPortStatistics& Memory::statistics(std::size_t port) const {
-  serve_until(sc_core::sc_time_stamp(), false);
+  serve_until(present(), false);
   return arbiter_.ports[port].statistics;
 }
 
@@ -58,12 +68,12 @@ double Memory::usable_bandwidth() const {
 
 ::tlm::tlm_sync_enum Memory::nb_transport_fw(int id, ::tlm::tlm_generic_payload& payload,
                                              ::tlm::tlm_phase& phase, sc_core::sc_time& delay) {
-  const sc_core::sc_time now = sc_core::sc_time_stamp();
+  const Picoseconds now = present();
   const auto index = static_cast<std::size_t>(id);
   Port& port = arbiter_.ports[index];
   if (phase == ::tlm::END_RESP) {
     port.answering = false;
-    port.answered_until = now + delay;
+    port.answered_until = now + date(delay);
     if (!port.answers.empty()) wake_at(port.answered_until);
     return ::tlm::TLM_COMPLETED;
   }
@@ -79,12 +89,12 @@ double Memory::usable_bandwidth() const {
   if (port.queue.size() >= timing_.queue_depth) serve_until(now, false);
   if (port.queue.size() >= timing_.queue_depth) {
     port.refused = &payload;
-    port.refused_arrival = now + delay;
+    port.refused_arrival = now + date(delay);
     ++arbiter_.refused;
     wake_in_time();
     return ::tlm::TLM_ACCEPTED;
   }
-  enqueue(index, {&payload, now + delay, transfer_time(payload)});
+  enqueue(index, {&payload, now + date(delay), transfer_time(payload)});
   phase = ::tlm::END_REQ;
   return ::tlm::TLM_UPDATED;
 }
@@ -92,14 +102,17 @@ double Memory::usable_bandwidth() const {
 void Memory::b_transport(int id, ::tlm::tlm_generic_payload& payload, sc_core::sc_time& delay) {
   sc_core::sc_event done;
   enqueue(static_cast<std::size_t>(id),
-          {&payload, sc_core::sc_time_stamp() + delay, transfer_time(payload), &done});
+          {&payload, present() + date(delay), transfer_time(payload), &done});
   delay = sc_core::SC_ZERO_TIME;
   sc_core::wait(done);
 }
 
 void Memory::enqueue(std::size_t id, const Request& request) {
-  std::deque<Request>& queue = arbiter_.ports[id].queue;
-  if (queue.empty()) arbiter_.arrivals[id] = request.arrival;
+  Ring<Request>& queue = arbiter_.ports[id].queue;
+  if (queue.empty()) {
+    arbiter_.arrivals[id] = request.arrival;
+    arbiter_.first_arrival = std::min(arbiter_.first_arrival, request.arrival);
+  }
   queue.push_back(request);
   // Whatever is under way is answered before this request can be.
   if (arbiter_.under_way.empty() || arbiter_.refused != 0) wake_in_time();
@@ -123,10 +136,11 @@ bool Memory::access(::tlm::tlm_generic_payload& payload) const {
     payload.set_response_status(::tlm::TLM_BURST_ERROR_RESPONSE);
     return false;
   }
+  payload.set_response_status(::tlm::TLM_OK_RESPONSE);
+  if (payload.get_extension<TrafficOnly>() != nullptr) return true;
   std::uint8_t* place = bytes_.get() + payload.get_address();
   if (payload.is_read()) std::memcpy(payload.get_data_ptr(), place, payload.get_data_length());
   if (payload.is_write()) std::memcpy(place, payload.get_data_ptr(), payload.get_data_length());
-  payload.set_response_status(::tlm::TLM_OK_RESPONSE);
   return true;
 }
 
@@ -136,34 +150,29 @@ Cycles Memory::transfer_time(const ::tlm::tlm_generic_payload& payload) const {
   return Cycles(std::max<std::int64_t>(1, (bytes * 100 + per_cycle - 1) / per_cycle));
 }
 
-// Of the requests that wait, or never_.
-const sc_core::sc_time& Memory::first_arrival() const {
-  return *std::min_element(arbiter_.arrivals.begin(), arbiter_.arrivals.end());
-}
-
 // When the bus is free and a request is there; needs one that waits.
 Cycles Memory::next_edge() const {
-  const sc_core::sc_time& first = first_arrival();
-  return first > arbiter_.bus_free_time ? clock_.cycle_at_or_after(first) : arbiter_.bus_free;
+  const Picoseconds first = arbiter_.first_arrival;
+  return first > arbiter_.bus_free_date ? clock_.cycle_at_or_after(first) : arbiter_.bus_free;
 }
 
-// The next port, in the arbiter's order, with a request that has arrived by `time`; needs one.
-std::size_t Memory::choose(const sc_core::sc_time& time) const {
-  const std::vector<sc_core::sc_time>& arrivals = arbiter_.arrivals;
+// The next port, in the arbiter's order, with a request that has arrived by `date`; needs one.
+std::size_t Memory::choose(Picoseconds date) const {
+  const std::vector<Picoseconds>& arrivals = arbiter_.arrivals;
   const bool in_turn = timing_.arbitration == MemoryTiming::Arbitration::kRoundRobin;
   std::size_t id = in_turn ? arbiter_.last_served + 1 : 0;
   for (;; ++id) {
     if (id == arrivals.size()) id = 0;
-    if (arrivals[id] <= time) return id;
+    if (arrivals[id] <= date) return id;
   }
 }
 
-// Gives the bus to all requests whose turn comes before `time`, or then.
-void Memory::serve_until(const sc_core::sc_time& time, bool inclusive) const {
-  while (first_arrival() <= time) {
+// Gives the bus to all requests whose turn comes before `date`, or then.
+void Memory::serve_until(Picoseconds date, bool inclusive) const {
+  while (arbiter_.first_arrival <= date) {
     const Cycles edge = next_edge();
-    const sc_core::sc_time at = clock_.time_of(edge);
-    if (at > time || (at == time && !inclusive)) return;
+    const Picoseconds at = clock_.date_of(edge);
+    if (at > date || (at == date && !inclusive)) return;
     serve(choose(at), edge);
   }
 }
@@ -180,22 +189,22 @@ void Memory::serve(std::size_t id, Cycles edge) const {
   statistics.bus += request.transfer;
   arbiter_.last_served = id;
   arbiter_.bus_free = edge + request.transfer;
-  arbiter_.bus_free_time = clock_.time_of(arbiter_.bus_free);
-  const sc_core::sc_time ready = clock_.time_of(arbiter_.bus_free + timing_.latency);
-  arbiter_.under_way.push_back({ready, id, request});
+  arbiter_.bus_free_date = clock_.date_of(arbiter_.bus_free);
+  arbiter_.under_way.push_back({clock_.date_of(arbiter_.bus_free + timing_.latency), id, request});
   if (port.refused != nullptr) {
     ::tlm::tlm_generic_payload& taken = *std::exchange(port.refused, nullptr);
     --arbiter_.refused;
     port.queue.push_back({&taken, port.refused_arrival, transfer_time(taken)});
     arbiter_.taken.push_back({id, &taken, port.refused_arrival});
   }
-  arbiter_.arrivals[id] = port.queue.empty() ? never_ : port.queue.front().arrival;
+  arbiter_.arrivals[id] = port.queue.empty() ? kNever : port.queue.front().arrival;
+  arbiter_.first_arrival = *std::min_element(arbiter_.arrivals.begin(), arbiter_.arrivals.end());
 }
 
 void Memory::run() {
-  const sc_core::sc_time now = sc_core::sc_time_stamp();
+  const Picoseconds now = present();
   running_ = true;
-  wake_time_ = never_;
+  wake_date_ = kNever;
   serve_until(now, std::exchange(inclusive_, false));
   end_requests();
   while (!arbiter_.under_way.empty() && arbiter_.under_way.front().ready <= now) {
@@ -223,22 +232,23 @@ void Memory::run() {
 }
 
 void Memory::end_requests() {
-  const sc_core::sc_time& now = sc_core::sc_time_stamp();
+  if (arbiter_.taken.empty()) return;
+  const Picoseconds now = present();
   for (const Taken& taken : std::exchange(arbiter_.taken, {})) {
     ::tlm::tlm_phase phase = ::tlm::END_REQ;
-    sc_core::sc_time delay = std::max(now, taken.arrival) - now;
+    sc_core::sc_time delay = time(std::max(now, taken.arrival) - now);
     socket[static_cast<int>(taken.port)]->nb_transport_bw(*taken.payload, phase, delay);
   }
 }
 
 bool Memory::may_respond(const Port& port) const {
-  return !port.answering && port.answered_until <= sc_core::sc_time_stamp();
+  return !port.answering && port.answered_until <= present();
 }
 
 void Memory::begin_response(std::size_t id, const Request& request) {
   Port& port = arbiter_.ports[id];
-  const sc_core::sc_time& now = sc_core::sc_time_stamp();
-  const sc_core::sc_time latency = now - request.arrival;
+  const Picoseconds now = present();
+  const sc_core::sc_time latency = time(now - request.arrival);
   port.statistics.latency_sum += latency;
   port.statistics.latency_largest = std::max(port.statistics.latency_largest, latency);
   if (request.blocking != nullptr) {
@@ -251,7 +261,7 @@ void Memory::begin_response(std::size_t id, const Request& request) {
       socket[static_cast<int>(id)]->nb_transport_bw(*request.payload, phase, delay);
   port.answering =
       status == ::tlm::TLM_ACCEPTED || (status == ::tlm::TLM_UPDATED && phase != ::tlm::END_RESP);
-  if (!port.answering) port.answered_until = now + delay;
+  if (!port.answering) port.answered_until = now + date(delay);
   request.payload->release();
 }
 
@@ -259,17 +269,17 @@ void Memory::begin_response(std::size_t id, const Request& request) {
 // is taken.
 void Memory::wake_in_time() {
   if (running_) return;  // run() ends with this
-  const sc_core::sc_time& now = sc_core::sc_time_stamp();
   if (!arbiter_.under_way.empty()) {
     wake_at(arbiter_.under_way.front().ready);
-  } else if (first_arrival() != never_) {
+  } else if (arbiter_.first_arrival != kNever) {
     // The answer to whoever would be served next as things are. A request that changes this comes through here.
     const Cycles edge = next_edge();
-    const Port& port = arbiter_.ports[choose(clock_.time_of(edge))];
-    wake_at(clock_.time_of(edge + port.queue.front().transfer + timing_.latency));
+    const Port& port = arbiter_.ports[choose(clock_.date_of(edge))];
+    wake_at(clock_.date_of(edge + port.queue.front().transfer + timing_.latency));
   }
   if (arbiter_.refused != 0) {
-    const sc_core::sc_time at = clock_.time_of(next_edge());
+    const Picoseconds now = present();
+    const Picoseconds at = clock_.date_of(next_edge());
     inclusive_ = at <= now;
     wake_at(std::max(at, now));
   }
@@ -279,10 +289,10 @@ void Memory::wake_in_time() {
   }
 }
 
-void Memory::wake_at(const sc_core::sc_time& time) {
-  if (running_ || time >= wake_time_) return;
-  wake_time_ = time;
-  wake_.notify(time - sc_core::sc_time_stamp());
+void Memory::wake_at(Picoseconds date) {
+  if (running_ || date >= wake_date_) return;
+  wake_date_ = date;
+  wake_.notify(time(date - present()));
 }
 
 }  // namespace parallax

@@ -3,7 +3,7 @@
 
 #include <tlm_utils/multi_passthrough_target_socket.h>
 #include <cstdint>
-#include <deque>
+#include <limits>
 #include <memory>
 #include <string>
 #include <systemc>
@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "tlm/clock_domain.hpp"
+#include "tlm/ring.hpp"
 #include "tlm/units.hpp"
 
 namespace parallax {
@@ -65,39 +66,42 @@ class Memory final : public sc_core::sc_module {
   double usable_bandwidth() const;
 
  private:
+  static constexpr Picoseconds kNever{std::numeric_limits<std::int64_t>::max()};
+
   struct Request {
-    ::tlm::tlm_generic_payload* payload;
-    sc_core::sc_time arrival;
+    ::tlm::tlm_generic_payload* payload = nullptr;
+    Picoseconds arrival;
     Cycles transfer;                        // on the bus
     sc_core::sc_event* blocking = nullptr;  // of a b_transport caller
   };
   struct Port {
-    std::deque<Request> queue;
+    Ring<Request> queue;
     ::tlm::tlm_generic_payload* refused = nullptr;  // BEGIN_REQ not answered with END_REQ yet
-    sc_core::sc_time refused_arrival;
-    std::deque<Request> answers;      // that are due and wait for an END_RESP
+    Picoseconds refused_arrival;
+    Ring<Request> answers;      // that are due and wait for an END_RESP
     bool answering = false;           // BEGIN_RESP sent, END_RESP not seen
-    sc_core::sc_time answered_until;  // END_RESP's own time; the next BEGIN_RESP is not earlier
+    Picoseconds answered_until;  // END_RESP's own time; the next BEGIN_RESP is not earlier
     MemoryPortStatistics statistics;
   };
   struct Served {
-    sc_core::sc_time ready;
-    std::size_t port;
+    Picoseconds ready;
+    std::size_t port = 0;
     Request request;
   };
   struct Taken {
     std::size_t port;
     ::tlm::tlm_generic_payload* payload;
-    sc_core::sc_time arrival;
+    Picoseconds arrival;
   };
   // What the decisions of the past add up to.
   struct Arbiter {
     std::vector<Port> ports;
-    std::vector<sc_core::sc_time> arrivals;  // of the first request in each queue, or never_
+    std::vector<Picoseconds> arrivals;  // of the first request in each queue, or kNever
+    Picoseconds first_arrival = kNever;  // of all
     std::size_t last_served = 0;
     Cycles bus_free{0};
-    sc_core::sc_time bus_free_time;
-    std::deque<Served> under_way;    // in the order of their answers
+    Picoseconds bus_free_date;
+    Ring<Served> under_way;    // in the order of their answers
     std::size_t refused = 0;   // on all ports
     std::vector<Taken> taken;  // refused requests that have found their place, to be told
   };
@@ -114,12 +118,11 @@ class Memory final : public sc_core::sc_module {
   bool may_respond(const Port& port) const;
   void begin_response(std::size_t id, const Request& request);
   void wake_in_time();
-  void wake_at(const sc_core::sc_time& time);
-  void serve_until(const sc_core::sc_time& time, bool inclusive) const;
+  void wake_at(Picoseconds date);
+  void serve_until(Picoseconds date, bool inclusive) const;
   void serve(std::size_t id, Cycles edge) const;
-  const sc_core::sc_time& first_arrival() const;
   Cycles next_edge() const;
-  std::size_t choose(const sc_core::sc_time& time) const;
+  std::size_t choose(Picoseconds date) const;
   Cycles transfer_time(const ::tlm::tlm_generic_payload& payload) const;
   bool access(::tlm::tlm_generic_payload& payload) const;
 
@@ -129,11 +132,10 @@ class Memory final : public sc_core::sc_module {
 
   const MemoryTiming timing_;
   const ClockDomain& clock_;
-  const sc_core::sc_time never_;
   std::unique_ptr<std::uint8_t, Free> bytes_;
   mutable Arbiter arbiter_;  // decisions are made late, at the latest when somebody asks
   sc_core::sc_event wake_;
-  sc_core::sc_time wake_time_;  // when it has been notified for, or never_
+  Picoseconds wake_date_ = kNever;  // it has been notified for
   std::size_t held_ = 0;  // answers that wait for an END_RESP, on all ports
   bool running_ = false;
   bool inclusive_ = false;  // the next run decides about the present edge, too

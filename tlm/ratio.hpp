@@ -5,8 +5,8 @@
 
 namespace parallax {
 
-/// Multiplies by numerator / denominator, exactly, without a division: 2^63 times the ratio's fractional part is
-/// kept, rounded down, and gives a quotient that is right or short by a little, which a multiplication tells.
+/// Multiplies by numerator / denominator, exactly and without a division: by 2^63 times the ratio's fractional part,
+/// rounded down. The error is below value / 2^63; only where that leaves the result open is it multiplied out.
 class Ratio {
  public:
   /// 0 < numerator, denominator < 2^63.
@@ -16,25 +16,36 @@ class Ratio {
         denominator_(denominator),
         fraction_(static_cast<std::uint64_t>((Wide{rest_} << 63) / denominator)) {}
 
-  /// `value` times the ratio, rounded down; the result must stay below 2^64.
-  constexpr std::uint64_t floor(std::uint64_t value) const { return value * whole_ + quotient(value); }
+  /// `value` < 2^63 times the ratio, rounded down; the result must stay below 2^64.
+  constexpr std::uint64_t floor(std::uint64_t value) const {
+    const Wide product = Wide{value} * fraction_;
+    const auto quotient = static_cast<std::uint64_t>(product >> 63);
+    if (below_point(product) + value < kOne) return value * whole_ + quotient;
+    return value * whole_ + exact_quotient(value, quotient);
+  }
 
-  /// `value` times the ratio, rounded up; the result must stay below 2^64.
+  /// `value` < 2^63 times the ratio, rounded up; the result must stay below 2^64.
   constexpr std::uint64_t ceil(std::uint64_t value) const {
-    const std::uint64_t fraction = quotient(value);
-    const bool exact = Wide{fraction} * denominator_ == Wide{value} * rest_;
-    return value * whole_ + fraction + (exact ? 0 : 1);
+    const Wide product = Wide{value} * fraction_;
+    auto quotient = static_cast<std::uint64_t>(product >> 63);
+    const std::uint64_t below = below_point(product);
+    if (below != 0 && below + value < kOne) return value * whole_ + quotient + 1;
+    quotient = exact_quotient(value, quotient);
+    const bool rounded = Wide{quotient} * denominator_ != Wide{value} * rest_;
+    return value * whole_ + quotient + (rounded ? 1 : 0);
   }
 
  private:
   __extension__ using Wide = unsigned __int128;
 
-  // value * rest_ / denominator_. fraction_ is short by less than 1, so the first quotient is short by less than
-  // value / 2^63, and rounding takes at most one more: the loop runs three times at most.
-  constexpr std::uint64_t quotient(std::uint64_t value) const {
-    auto quotient = static_cast<std::uint64_t>((Wide{value} * fraction_) >> 63);
-    while ((Wide{quotient} + 1) * denominator_ <= Wide{value} * rest_) ++quotient;
-    return quotient;
+  static constexpr std::uint64_t kOne = std::uint64_t{1} << 63;
+  static constexpr std::uint64_t below_point(Wide product) {
+    return static_cast<std::uint64_t>(product) & (kOne - 1);
+  }
+
+  // value * rest_ / denominator_, from a quotient that may be one too small.
+  constexpr std::uint64_t exact_quotient(std::uint64_t value, std::uint64_t quotient) const {
+    return quotient + ((Wide{quotient} + 1) * denominator_ <= Wide{value} * rest_ ? 1 : 0);
   }
 
   std::uint64_t whole_;
