@@ -23,7 +23,9 @@ EthernetLink::EthernetLink(const sc_core::sc_module_name& name, const LinkConfig
       host_(config.host_pixel_rate == 0 ? 0 : kPixels * clock.frequency().count(),
             config.host_pixel_rate == 0 ? 1 : kPixelBytes * config.host_pixel_rate) {
   SC_HAS_PROCESS(EthernetLink);
-  SC_THREAD(run);
+  SC_METHOD(advance);
+  sensitive << go_on_;
+  dont_initialize();
   in_bursts.on_row(0, [this](const std::uint8_t* bytes, std::size_t size) {
     bytes_.insert(bytes_.end(), bytes, bytes + size);
   });
@@ -31,37 +33,66 @@ EthernetLink::EthernetLink(const sc_core::sc_module_name& name, const LinkConfig
 
 void EthernetLink::start(LinkJob job) {
   jobs_.push_back(std::move(job));
-  started_.notify();
+  go_on_.notify();
 }
 
-void EthernetLink::run() {
-  const std::uint64_t overhead = config_.packet_wire_bytes - config_.packet_payload_bytes;
-  const auto burst = static_cast<std::uint64_t>(burst_.count());
+void EthernetLink::advance() {
   for (;;) {
-    while (jobs_.empty()) sc_core::wait(started_);
-    job_ = std::move(jobs_.front());
-    jobs_.pop_front();
-    std::uint64_t received = 0;
-    for (std::uint64_t sent = 0; sent < job_.bytes;) {
-      const std::uint64_t payload = std::min<std::uint64_t>(config_.packet_payload_bytes, job_.bytes - sent);
-      while (received < sent + payload) {
-        in_bursts->wait_readable();
-        in_bursts->release();
-        received += std::min(burst, job_.bytes - received);
-      }
-      clock_.wait_until(std::max(wire_free_, host_free_));
-      const Cycles begin = clock_.now();
-      const Cycles wire = wire_.take(static_cast<std::int64_t>(payload + overhead));
-      const Cycles host = host_.take(static_cast<std::int64_t>(payload));
-      wire_free_ = begin + wire;
-      host_free_ = std::max(host_free_, begin) + host;
-      wire_busy_ += wire;
-      host_busy_ += host;
-      ++packets_;
-      sent += payload;
+    if (!sending_) {
+      if (jobs_.empty()) return;
+      job_ = std::move(jobs_.front());
+      jobs_.pop_front();
+      sending_ = true;
+      received_ = 0;
+      sent_ = 0;
+      ready_ = clock_.now();
     }
-    clock_.wait_until(wire_free_);
+    while (sent_ < job_.bytes) {
+      const std::uint64_t payload = std::min<std::uint64_t>(config_.packet_payload_bytes, job_.bytes - sent_);
+      if (!gather(sent_ + payload)) return;
+      send_packet(payload);
+    }
+    if (wire_free_ > clock_.now()) {
+      go_on_.notify(clock_.time_of(wire_free_) - sc_core::sc_time_stamp());
+      return;
+    }
+    sending_ = false;
     finish_frame();
+  }
+}
+
+// Reads until the first `bytes` of the frame are there, if it is known when.
+bool EthernetLink::gather(std::uint64_t bytes) {
+  while (received_ < bytes) {
+    if (!in_bursts->read_date_known()) {
+      in_bursts->wait_for_token();
+      return false;
+    }
+    const Cycles free = std::max(ready_, last_read_ + Cycles(1));
+    last_read_ = std::max(free, in_bursts->readable_at());
+    in_bursts->mark_read(last_read_, last_read_ - free);
+    ready_ = last_read_;
+    received_ += std::min(static_cast<std::uint64_t>(burst_.count()), job_.bytes - received_);
+  }
+  return true;
+}
+
+void EthernetLink::send_packet(std::uint64_t payload) {
+  const std::uint64_t overhead = config_.packet_wire_bytes - config_.packet_payload_bytes;
+  ready_ = std::max({ready_, wire_free_, host_free_});
+  const Packet packet{ready_, wire_.take(static_cast<std::int64_t>(payload + overhead)),
+                      host_.take(static_cast<std::int64_t>(payload))};
+  wire_free_ = packet.begin + packet.wire;
+  host_free_ = packet.begin + packet.host;
+  sent_ += payload;
+  packets_.push_back(packet);
+  const Cycles now = clock_.now();
+  while (!packets_.empty() &&
+         packets_.front().begin + std::max(packets_.front().wire, packets_.front().host) <= now) {
+    ++past_packets_;
+    past_wire_ += packets_.front().wire;
+    past_host_ += packets_.front().host;
+    packets_.pop_front();
   }
 }
 
@@ -75,8 +106,24 @@ void EthernetLink::finish_frame() {
   job_.sent(bytes);
 }
 
-Cycles EthernetLink::wire_busy() const { return wire_busy_ - std::max(Cycles(0), wire_free_ - clock_.now()); }
+std::uint64_t EthernetLink::packets() const {
+  const Cycles now = clock_.now();
+  return past_packets_ + static_cast<std::uint64_t>(std::count_if(
+                             packets_.begin(), packets_.end(), [&](const Packet& p) { return p.begin <= now; }));
+}
 
-Cycles EthernetLink::host_busy() const { return host_busy_ - std::max(Cycles(0), host_free_ - clock_.now()); }
+Cycles EthernetLink::wire_busy() const { return past_wire_ + passed(&Packet::wire); }
+
+Cycles EthernetLink::host_busy() const { return past_host_ + passed(&Packet::host); }
+
+// What has passed until now of a time that each of packets_ takes.
+Cycles EthernetLink::passed(Cycles Packet::*time) const {
+  const Cycles now = clock_.now();
+  Cycles sum;
+  for (const Packet& packet : packets_) {
+    sum += std::clamp(now - packet.begin, Cycles(0), packet.*time);
+  }
+  return sum;
+}
 
 }  // namespace parallax

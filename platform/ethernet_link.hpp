@@ -23,8 +23,9 @@ struct LinkJob {
 
 /// Ethernet link: cuts the results into packets and sends them at the line rate. A packet leaves when its
 /// payload is there, the wire is free, and the host has taken the pixels before: the host's own rate is a
-/// limit beside the line's, carried over from frame to frame.
-class EthernetLink final : public sc_core::sc_module {
+/// limit beside the line's, carried over from frame to frame. Dates of packets follow from those of the bursts, so they
+/// are known ahead of time.
+class EthernetLink final : public sc_core::sc_module, public Actor {
  public:
   StreamIn<std::uint8_t> in_bursts{"in_bursts"};
 
@@ -33,13 +34,22 @@ class EthernetLink final : public sc_core::sc_module {
 
   void start(LinkJob job);
 
-  std::uint64_t packets() const { return packets_; }
-  Cycles wire_busy() const;  ///< cycles that packets were on the wire, until now
-  Cycles host_busy() const;  ///< cycles that the host was taking pixels, until now
+  std::uint64_t packets() const;  ///< that were begun until now
+  Cycles wire_busy() const;       ///< cycles that packets were on the wire, until now
+  Cycles host_busy() const;       ///< cycles that the host was taking pixels, until now
 
  private:
-  void run();
+  struct Packet {
+    Cycles begin;
+    Cycles wire;  // how long it is on the wire
+    Cycles host;  // how long the host takes its pixels
+  };
+
+  void advance() override;
+  bool gather(std::uint64_t bytes);
+  void send_packet(std::uint64_t payload);
   void finish_frame();
+  Cycles passed(Cycles Packet::*time) const;
 
   const LinkConfig config_;
   const Bytes burst_;
@@ -47,14 +57,20 @@ class EthernetLink final : public sc_core::sc_module {
   Pacer wire_;  // cycles a wire byte
   Pacer host_;  // cycles a payload byte
   std::deque<LinkJob> jobs_;
-  sc_core::sc_event started_;
+  sc_core::sc_event go_on_;
   std::deque<std::uint8_t> bytes_;
-  std::uint64_t packets_ = 0;
-  LinkJob job_;  // under way; a member, because a thread that never ends frees nothing
+  bool sending_ = false;  // a frame, which is
+  LinkJob job_;
+  std::uint64_t received_ = 0;  // bytes of it
+  std::uint64_t sent_ = 0;      // bytes of it
+  Cycles ready_{0};             // of the last thing that was done
+  Cycles last_read_{-1};
   Cycles wire_free_{0};
   Cycles host_free_{0};
-  Cycles wire_busy_;
-  Cycles host_busy_;
+  std::deque<Packet> packets_;  // those that were not over when the last one was sent
+  std::uint64_t past_packets_ = 0;
+  Cycles past_wire_;  // of these
+  Cycles past_host_;
 };
 
 }  // namespace parallax

@@ -8,40 +8,59 @@ namespace parallax {
 
 Sensor::Sensor(const sc_core::sc_module_name& name, const SensorConfig& config, const ClockDomain& clock,
                Dataflow& dataflow)
-    : sc_module(name), config_(config), clock_(clock), dataflow_(dataflow) {
+    : sc_module(name), config_(config), clock_(clock), dataflow_(dataflow), at_(image_bytes()) {
   SC_HAS_PROCESS(Sensor);
-  SC_THREAD(run);
+  SC_METHOD(advance);
+  sensitive << go_on_;
+  dont_initialize();
 }
 
 void Sensor::read_out(SensorImage image) {
-  images_.push_back(std::move(image));
-  exposed_.notify();
+  exposed_.push_back({std::move(image), clock_.now()});
+  go_on_.notify();
 }
 
 Cycles Sensor::frame_time() const { return config_.row * config_.height + config_.frame_blanking; }
 
 Cycles Sensor::busy() const { return busy_ - std::max(Cycles(0), free_ - clock_.now()); }
 
-void Sensor::run() {
-  const std::int64_t bytes = std::int64_t{config_.width} * config_.height;
-  for (;;) {
-    while (images_.empty()) sc_core::wait(exposed_);
-    if (const SensorImage image = images_.front())
-      dataflow_.post([this, image] { out_bursts.send_row(image->data(), image->size()); });
-    images_.pop_front();
-    const Cycles begin = clock_.now();
-    busy_ += frame_time();
-    free_ = begin + frame_time();
-    for (std::int64_t at = 0; at < bytes; at += config_.burst.count()) {
-      const std::int64_t last = std::min(at + config_.burst.count(), bytes) - 1;
-      const Cycles due = begin + config_.row * (last / config_.width) + Cycles(last % config_.width + 1);
-      clock_.wait_until(due);
-      out_bursts[0]->wait_writable();
-      if (clock_.now() > due) ++late_bursts_;
-      out_bursts[0]->commit();
+void Sensor::advance() {
+  const std::int64_t bytes = image_bytes();
+  StreamBase& out = *out_bursts[0];
+  while (at_ < bytes || begin_image()) {
+    if (!out.write_date_known()) {
+      out.wait_for_room();
+      return;
     }
-    clock_.wait_until(free_);
+    const std::int64_t end = std::min(at_ + config_.burst.count(), bytes);
+    const std::int64_t last = end - 1;
+    const Cycles due = begin_ + config_.row * (last / config_.width) + Cycles(last % config_.width + 1);
+    const Cycles free = std::max(due, last_write_ + Cycles(1));
+    const Cycles room = out.writable_at();
+    last_write_ = std::max(free, room);
+    if (last_write_ > due) ++late_bursts_;
+    out.mark_written(last_write_, last_write_ - free);
+    at_ = end;
   }
+}
+
+// Whether another image is there whose time has come.
+bool Sensor::begin_image() {
+  if (exposed_.empty()) return false;
+  const Cycles begin = std::max({exposed_.front().at, free_, last_write_});
+  if (begin > clock_.now()) {
+    go_on_.notify(clock_.time_of(begin) - sc_core::sc_time_stamp());
+    return false;
+  }
+  if (const SensorImage image = exposed_.front().image) {
+    dataflow_.post([this, image] { out_bursts.send_row(image->data(), image->size()); });
+  }
+  exposed_.pop_front();
+  begin_ = begin;
+  free_ = begin + frame_time();
+  busy_ += frame_time();
+  at_ = 0;
+  return true;
 }
 
 }  // namespace parallax

@@ -26,8 +26,8 @@ using SensorImage = std::shared_ptr<const std::vector<Gray>>;
 
 /// One sensor of the stereo camera with its cable: reads an exposed image out in raster order, a row every
 /// `row` cycles, 8 bit a pixel, and hands it on in bursts. It cannot wait: a burst that finds the FIFO full
-/// is late.
-class Sensor final : public sc_core::sc_module {
+/// is late. A burst's date is handed on as soon as it is known that there is room for it then.
+class Sensor final : public sc_core::sc_module, public Actor {
  public:
   StreamOut<std::uint8_t> out_bursts{"out_bursts"};
 
@@ -43,15 +43,25 @@ class Sensor final : public sc_core::sc_module {
   std::uint64_t late_bursts() const { return late_bursts_; }
 
  private:
-  void run();
+  struct Exposed {
+    SensorImage image;
+    Cycles at;
+  };
+
+  void advance() override;
+  bool begin_image();
+  std::int64_t image_bytes() const { return std::int64_t{config_.width} * config_.height; }
 
   const SensorConfig config_;
   const ClockDomain& clock_;
   Dataflow& dataflow_;
-  std::deque<SensorImage> images_;
-  sc_core::sc_event exposed_;
+  std::deque<Exposed> exposed_;  // images that wait for their read-out
+  sc_core::sc_event go_on_;
+  std::int64_t at_;  // bytes of the image under way that have been handed on
+  Cycles begin_{0};  // of its read-out
+  Cycles free_{0};   // end of its read-out
   Cycles busy_;
-  Cycles free_{0};  // end of the frame being read out
+  Cycles last_write_{-1};
   std::uint64_t late_bursts_ = 0;
 };
 

@@ -3,70 +3,71 @@
 
 #include <fmt/format.h>
 
-#include <utility>
+#include <algorithm>
 
 namespace parallax {
 
 BusMaster::BusMaster(const sc_core::sc_module_name& name, std::size_t burst_bytes, std::uint32_t outstanding,
-                     std::function<void(::tlm::tlm_generic_payload&)> response)
+                     BusClient& client)
     : sc_module(name),
       pool_(burst_bytes),
       outstanding_(outstanding),
-      response_(std::move(response)),
+      client_(client),
       later_(this, &BusMaster::phase_due) {
   socket.register_nb_transport_bw(this, &BusMaster::nb_transport_bw);
 }
 
-void BusMaster::wait_for_place() {
-  while (in_flight_ == outstanding_) sc_core::wait(moved_);
-}
-
-void BusMaster::send(::tlm::tlm_generic_payload& payload) {
-  change_in_flight(1);
+void BusMaster::send(::tlm::tlm_generic_payload& payload, const sc_core::sc_time& time) {
+  requests_.push_back({&payload, time});
   requesting_ = &payload;
+  const sc_core::sc_time& now = sc_core::sc_time_stamp();
   ::tlm::tlm_phase phase = ::tlm::BEGIN_REQ;
-  sc_core::sc_time delay = sc_core::SC_ZERO_TIME;
+  sc_core::sc_time delay = time - now;
   const ::tlm::tlm_sync_enum status = socket->nb_transport_fw(payload, phase, delay);
-  if (status != ::tlm::TLM_ACCEPTED) {
-    if (delay > sc_core::SC_ZERO_TIME) sc_core::wait(delay);
-    requesting_ = nullptr;
-    if (status == ::tlm::TLM_COMPLETED) {
-      answered(payload);
-    } else if (phase == ::tlm::BEGIN_RESP) {
-      end_response(payload);
-    }
+  if (status == ::tlm::TLM_ACCEPTED) return;
+  if (status == ::tlm::TLM_UPDATED && phase == ::tlm::END_REQ) {
+    request_ends(payload, std::max(time, now + delay));
+    return;
   }
-  while (requesting_ != nullptr) sc_core::wait(moved_);
+  if (status == ::tlm::TLM_COMPLETED) phase = ::tlm::END_RESP;
+  later_.notify(payload, phase, std::max(time, now + delay) - now);
 }
 
 ::tlm::tlm_sync_enum BusMaster::nb_transport_bw(::tlm::tlm_generic_payload& payload, ::tlm::tlm_phase& phase,
                                                 sc_core::sc_time& delay) {
-  if (delay > sc_core::SC_ZERO_TIME) {
-    later_.notify(payload, phase, delay);
+  const sc_core::sc_time& now = sc_core::sc_time_stamp();
+  if (phase == ::tlm::END_REQ) {
+    request_ends(payload, std::max(find(payload)->time, now + delay));
     return ::tlm::TLM_ACCEPTED;
   }
-  if (!take_phase(payload, phase)) return ::tlm::TLM_ACCEPTED;
+  if (phase != ::tlm::BEGIN_RESP) return ::tlm::TLM_ACCEPTED;  // a phase that may be ignored
+  const sc_core::sc_time date = std::max(find(payload)->time, now + delay);
+  if (date > now) {
+    later_.notify(payload, phase, date - now);
+    return ::tlm::TLM_ACCEPTED;
+  }
+  request_ends(payload, date);
   answered(payload);
   phase = ::tlm::END_RESP;
   return ::tlm::TLM_COMPLETED;
 }
 
+// An answer is due: BEGIN_RESP, or END_RESP when the target has ended the transaction itself.
 void BusMaster::phase_due(::tlm::tlm_generic_payload& payload, const ::tlm::tlm_phase& phase) {
-  if (take_phase(payload, phase)) end_response(payload);
-}
-
-// Whether the phase is an answer.
-bool BusMaster::take_phase(::tlm::tlm_generic_payload& payload, const ::tlm::tlm_phase& phase) {
-  if (requesting_ == &payload) requesting_ = nullptr;  // END_REQ, or BEGIN_RESP that implies it
-  moved_.notify(sc_core::SC_ZERO_TIME);
-  return phase == ::tlm::BEGIN_RESP;
-}
-
-void BusMaster::end_response(::tlm::tlm_generic_payload& payload) {
-  ::tlm::tlm_phase phase = ::tlm::END_RESP;
-  sc_core::sc_time delay = sc_core::SC_ZERO_TIME;
-  socket->nb_transport_fw(payload, phase, delay);
+  request_ends(payload, sc_core::sc_time_stamp());
+  if (phase == ::tlm::BEGIN_RESP) {
+    ::tlm::tlm_phase end = ::tlm::END_RESP;
+    sc_core::sc_time delay = sc_core::SC_ZERO_TIME;
+    socket->nb_transport_fw(payload, end, delay);
+  }
   answered(payload);
+}
+
+// END_REQ, or an answer that implies it.
+void BusMaster::request_ends(::tlm::tlm_generic_payload& payload, const sc_core::sc_time& time) {
+  if (requesting_ != &payload) return;
+  requesting_ = nullptr;
+  client_.taken(time);
 }
 
 void BusMaster::answered(::tlm::tlm_generic_payload& payload) {
@@ -76,20 +77,26 @@ void BusMaster::answered(::tlm::tlm_generic_payload& payload) {
                                 payload.get_address(), payload.get_response_string())
                         .c_str());
   }
-  change_in_flight(-1);
-  moved_.notify(sc_core::SC_ZERO_TIME);
-  response_(payload);
+  const bool was_full = requests_.size() == outstanding_;
+  const auto request = find(payload);
+  occupied_ += sc_core::sc_time_stamp() - request->time;
+  requests_.erase(request);
   payload.release();
+  client_.answered(was_full);
 }
 
-void BusMaster::change_in_flight(int by) {
-  occupied_ = occupied();
-  occupied_until_ = sc_core::sc_time_stamp();
-  in_flight_ = static_cast<std::uint32_t>(static_cast<int>(in_flight_) + by);
+std::vector<BusMaster::Request>::iterator BusMaster::find(const ::tlm::tlm_generic_payload& payload) {
+  return std::find_if(requests_.begin(), requests_.end(),
+                      [&](const Request& request) { return request.payload == &payload; });
 }
 
 sc_core::sc_time BusMaster::occupied() const {
-  return occupied_ + (sc_core::sc_time_stamp() - occupied_until_) * in_flight_;
+  const sc_core::sc_time& now = sc_core::sc_time_stamp();
+  sc_core::sc_time sum = occupied_;
+  for (const Request& request : requests_) {
+    if (request.time < now) sum += now - request.time;
+  }
+  return sum;
 }
 
 void BusMaster::read_now(std::uint64_t address, std::uint8_t* data, std::size_t size) {

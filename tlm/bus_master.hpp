@@ -4,57 +4,72 @@
 #include <tlm_utils/peq_with_cb_and_phase.h>
 #include <tlm_utils/simple_initiator_socket.h>
 #include <cstdint>
-#include <functional>
 #include <systemc>
 #include <tlm>
+#include <vector>
 
 #include "tlm/payload_pool.hpp"
 
 namespace parallax {
 
+/// Told by a bus master how its requests fare.
+class BusClient {
+ public:
+  virtual ~BusClient() = default;
+  /// The target has taken the request that was sent last, at `time`, which may be in the future.
+  virtual void taken(const sc_core::sc_time& time) = 0;
+  /// A request is answered now, which makes room for another one. `was_full`: nothing could be sent before.
+  virtual void answered(bool was_full) = 0;
+};
+
 /// The request and response side of a DMA engine: a TLM-2.0 initiator that keeps to the base protocol, with
-/// several requests on the way.
+/// several requests on the way. A request whose date is known is sent ahead of it, with the date as timing
+/// annotation, so that no kernel event is spent on it.
 class BusMaster final : public sc_core::sc_module {
  public:
   tlm_utils::simple_initiator_socket<BusMaster> socket{"socket"};
 
-  /// `outstanding` >= 1: requests sent and not answered. `response` is told of each answer when it is there.
+  /// `outstanding` >= 1: requests sent and not answered.
   BusMaster(const sc_core::sc_module_name& name, std::size_t burst_bytes, std::uint32_t outstanding,
-            std::function<void(::tlm::tlm_generic_payload&)> response);
+            BusClient& client);
 
   PayloadPool& pool() { return pool_; }
-  /// For a thread: returns when a request may be sent, which is when fewer than `outstanding` are on the way.
-  void wait_for_place();
-  /// For a thread, after wait_for_place(): sends the payload now and returns when the target has taken it. An
-  /// answer that is an error is reported with SC_REPORT_ERROR /parallax/dma/response.
-  void send(::tlm::tlm_generic_payload& payload);
+  /// Whether a request may be sent: the target has taken the one before, and fewer than `outstanding` are on the
+  /// way. When not, BusClient says when that has changed.
+  bool ready() const { return requesting_ == nullptr && requests_.size() < outstanding_; }
+  /// Needs ready(). Sends a payload of the pool with its date, `time`: not before the present, nor before the
+  /// request before was taken. An answer that is an error is reported with SC_REPORT_ERROR
+  /// /parallax/dma/response.
+  void send(::tlm::tlm_generic_payload& payload, const sc_core::sc_time& time);
   /// Functional access, in no time.
   void read_now(std::uint64_t address, std::uint8_t* data, std::size_t size);
 
-  std::uint32_t in_flight() const { return in_flight_; }
+  std::size_t in_flight() const { return requests_.size(); }
 
   /// Time that requests were under way until now, summed over them: at most `outstanding` times the present
   /// time.
   sc_core::sc_time occupied() const;
 
  private:
+  struct Request {
+    ::tlm::tlm_generic_payload* payload;
+    sc_core::sc_time time;
+  };
+
   ::tlm::tlm_sync_enum nb_transport_bw(::tlm::tlm_generic_payload& payload, ::tlm::tlm_phase& phase,
                                        sc_core::sc_time& delay);
   void phase_due(::tlm::tlm_generic_payload& payload, const ::tlm::tlm_phase& phase);
-  bool take_phase(::tlm::tlm_generic_payload& payload, const ::tlm::tlm_phase& phase);
-  void end_response(::tlm::tlm_generic_payload& payload);
+  void request_ends(::tlm::tlm_generic_payload& payload, const sc_core::sc_time& time);
   void answered(::tlm::tlm_generic_payload& payload);
-  void change_in_flight(int by);
+  std::vector<Request>::iterator find(const ::tlm::tlm_generic_payload& payload);
 
   PayloadPool pool_;
   std::uint32_t outstanding_;
-  std::function<void(::tlm::tlm_generic_payload&)> response_;
-  tlm_utils::peq_with_cb_and_phase<BusMaster> later_;  // phases that the target dated in the future
-  std::uint32_t in_flight_ = 0;
-  sc_core::sc_time occupied_;
-  sc_core::sc_time occupied_until_;
-  ::tlm::tlm_generic_payload* requesting_ = nullptr;  // sent, END_REQ not seen
-  sc_core::sc_event moved_;
+  BusClient& client_;
+  tlm_utils::peq_with_cb_and_phase<BusMaster> later_;  // answers that the target dated in the future
+  std::vector<Request> requests_;                      // sent and not answered, in order
+  sc_core::sc_time occupied_;                          // by those that are answered
+  ::tlm::tlm_generic_payload* requesting_ = nullptr;   // sent, END_REQ not seen
 };
 
 }  // namespace parallax

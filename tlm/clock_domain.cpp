@@ -10,46 +10,33 @@
 namespace parallax {
 namespace {
 
-__extension__ using Wide = unsigned __int128;
-
 constexpr std::int64_t kPicosecondsPerSecond = 1'000'000'000'000;
-
-// a * b / c without overflow, rounded down.
-std::uint64_t scale(std::uint64_t a, std::uint64_t b, std::uint64_t c) {
-  return static_cast<std::uint64_t>(Wide{a} * b / c);
-}
 
 std::uint64_t unsigned_count(Cycles c) { return static_cast<std::uint64_t>(c.count()); }
 
-}  // namespace
-
-ClockDomain::ClockDomain(std::string name, Hertz frequency) : name_(std::move(name)), frequency_(frequency) {
+Hertz checked(const std::string& name, Hertz frequency) {
   if (frequency < Hertz(1) || frequency > Hertz(kPicosecondsPerSecond)) {
-    throw UserError(fmt::format("clock '{}': frequency {} Hz is outside 1 to {} Hz", name_, frequency.count(),
+    throw UserError(fmt::format("clock '{}': frequency {} Hz is outside 1 to {} Hz", name, frequency.count(),
                                 kPicosecondsPerSecond));
   }
+  return frequency;
 }
 
-sc_core::sc_time ClockDomain::time_of(Cycles cycle) const {
-  const auto hz = static_cast<std::uint64_t>(frequency_.count());
-  return sc_core::sc_time::from_value(scale(unsigned_count(cycle), kPicosecondsPerSecond, hz));
-}
+}  // namespace
 
-Cycles ClockDomain::cycle_at_or_after(const sc_core::sc_time& time) const {
-  // The estimate from the rounded time is at most one edge early.
-  const auto hz = static_cast<std::uint64_t>(frequency_.count());
-  Cycles cycle(scale(time.value(), hz, kPicosecondsPerSecond));
-  while (time_of(cycle) < time) cycle += Cycles(1);
-  return cycle;
-}
-
-Cycles ClockDomain::now() const { return cycle_at_or_after(sc_core::sc_time_stamp()); }
+ClockDomain::ClockDomain(std::string name, Hertz frequency)
+    : name_(std::move(name)),
+      frequency_(checked(name_, frequency)),
+      period_(kPicosecondsPerSecond, static_cast<std::uint64_t>(frequency.count())),
+      rate_(static_cast<std::uint64_t>(frequency.count()), kPicosecondsPerSecond) {}
 
 Cycles ClockDomain::first_edge_after(const ClockDomain& other, Cycles cycle) const {
   if (frequency_ == other.frequency_) return cycle + Cycles(1);
-  return Cycles(scale(unsigned_count(cycle), static_cast<std::uint64_t>(frequency_.count()),
-                      static_cast<std::uint64_t>(other.frequency_.count())) +
-                1);
+  const auto to = static_cast<std::uint64_t>(frequency_.count());
+  const auto from = static_cast<std::uint64_t>(other.frequency_.count());
+  std::uint64_t product = 0;
+  if (!__builtin_mul_overflow(unsigned_count(cycle), to, &product)) return Cycles(product / from + 1);
+  return Cycles(Ratio(to, from).floor(unsigned_count(cycle)) + 1);
 }
 
 double ClockDomain::seconds(Cycles cycles) const {

@@ -6,19 +6,6 @@
 #include <utility>
 
 namespace parallax {
-namespace {
-
-using Ends = std::deque<std::pair<std::uint64_t, std::function<void()>>>;
-
-void finish(Ends& ends, std::uint64_t answered) {
-  while (!ends.empty() && ends.front().first <= answered) {
-    const auto done = std::move(ends.front().second);
-    ends.pop_front();
-    if (done) done();
-  }
-}
-
-}  // namespace
 
 std::uint64_t DmaJob::bytes() const {
   return std::accumulate(row_bytes.begin(), row_bytes.end(), std::uint64_t{0});
@@ -29,113 +16,171 @@ std::uint64_t burst_count(std::uint64_t bytes, Bytes burst) {
   return (bytes + size - 1) / size;
 }
 
-DmaReader::DmaReader(const sc_core::sc_module_name& name, const DmaEngineConfig& config,
+DmaEngine::DmaEngine(const sc_core::sc_module_name& name, const DmaEngineConfig& config,
                      const ClockDomain& clock)
     : sc_module(name),
-      master("master", static_cast<std::size_t>(config.burst.count()), config.outstanding,
-             [this](::tlm::tlm_generic_payload&) { arrived(); }),
-      config_(config),
+      master("master", static_cast<std::size_t>(config.burst.count()), config.outstanding, *this),
+      burst_(static_cast<std::uint64_t>(config.burst.count())),
       clock_(clock) {
-  SC_HAS_PROCESS(DmaReader);
-  SC_THREAD(run);
+  SC_HAS_PROCESS(DmaEngine);
+  SC_METHOD(advance);
+  sensitive << go_on_;
+  dont_initialize();
 }
 
-void DmaReader::start(DmaJob job) {
+void DmaEngine::start(DmaJob job) {
   jobs_.push_back(std::move(job));
-  started_.notify(sc_core::SC_ZERO_TIME);  // also before the simulation starts
+  go_on_.notify(sc_core::SC_ZERO_TIME);  // also before the simulation starts
 }
 
-void DmaReader::run() {
-  const auto burst = static_cast<std::uint64_t>(config_.burst.count());
-  Cycles next(0);
-  for (;;) {
-    while (jobs_.empty()) sc_core::wait(started_);
+void DmaEngine::advance() {
+  advancing_ = true;
+  while (have_burst() && master.ready() && request_next()) continue;
+  advancing_ = false;
+}
+
+// Whether a burst is left to be requested; takes the next job when one is done.
+bool DmaEngine::have_burst() {
+  while (at_ == bytes_) {
+    if (jobs_.empty()) return false;
     job_ = std::move(jobs_.front());
     jobs_.pop_front();
-    const std::uint64_t bytes = job_.bytes();
-    ends_.emplace_back(requested_ + burst_count(bytes, config_.burst), job_.done);
-    finish(ends_, answered_);  // a job without bytes
-    std::size_t row = 0;
-    std::uint64_t row_start = 0;
-    for (std::uint64_t at = 0; at < bytes; at += burst) {
-      const std::uint64_t size = std::min(burst, bytes - at);
-      for (int i = 0; i < out_bursts.size(); ++i) out_bursts[i]->wait_writable(requested_ - answered_);
-      master.wait_for_place();
-      clock_.wait_until(std::max(next, clock_.now()));
-      send_rows(row, row_start, at + size);
-      ++requested_;
-      next = clock_.now() + Cycles(1);
-      master.send(master.pool().take(::tlm::TLM_READ_COMMAND, job_.address + at, size));
-    }
+    bytes_ = job_.bytes();
+    at_ = 0;
+    free_ = std::max(free_, clock_.now());
+    ends_.emplace_back(requested_ + burst_count(bytes_, Bytes(burst_)), std::move(job_.done));
+    finish_jobs();  // it may be without bytes
+    job_begins();
+  }
+  return true;
+}
+
+::tlm::tlm_generic_payload& DmaEngine::take_payload(::tlm::tlm_command command) {
+  return master.pool().take(command, job_.address + first_byte(), last_byte() - first_byte(), job_.values);
+}
+
+void DmaEngine::request(::tlm::tlm_generic_payload& payload, Cycles cycle) {
+  at_ = last_byte();
+  ++requested_;
+  request_cycle_ = cycle;
+  request_time_ = clock_.time_of(cycle);
+  free_ = cycle + Cycles(1);
+  master.send(payload, request_time_);
+}
+
+void DmaEngine::look_again(Cycles cycle) {
+  go_on_.notify(clock_.time_of(cycle) - sc_core::sc_time_stamp());
+}
+
+void DmaEngine::taken(const sc_core::sc_time& time) {
+  const Cycles cycle = time == request_time_ ? request_cycle_ : clock_.cycle_at_or_after(time);
+  free_ = std::max(free_, cycle);
+  request_taken(cycle);
+  if (!advancing_) dataflow().wake(*this);
+}
+
+void DmaEngine::answered(bool was_full) {
+  const Cycles now = clock_.now();
+  if (was_full) free_ = std::max(free_, now);
+  ++answered_;
+  burst_answered(now);
+  finish_jobs();
+  if (was_full) dataflow().wake(*this);
+}
+
+void DmaEngine::finish_jobs() {
+  while (!ends_.empty() && ends_.front().first <= answered_) {
+    const auto done = std::move(ends_.front().second);
+    ends_.pop_front();
+    if (done) done();
   }
 }
 
+bool DmaReader::request_next() {
+  bool known = true;
+  Cycles room(0);
+  int latest = 0;
+  for (int i = 0; i < out_bursts.size(); ++i) {
+    StreamBase& stream = *out_bursts[i];
+    if (!stream.write_date_known(under_way())) {
+      stream.wait_for_room();
+      known = false;
+    } else if (const Cycles date = stream.writable_at(under_way()); date > room) {
+      room = date;
+      latest = i;
+    }
+  }
+  if (!known) return false;
+  blocked_.push_back({latest, std::max(Cycles(0), room - free())});
+  send_rows(last_byte());
+  request(take_payload(::tlm::TLM_READ_COMMAND), std::max(free(), room));
+  return true;
+}
+
+void DmaReader::job_begins() {
+  row_ = 0;
+  row_start_ = 0;
+}
+
 // Hands on the rows that begin before byte `until` of the job.
-void DmaReader::send_rows(std::size_t& row, std::uint64_t& row_start, std::uint64_t until) {
-  for (; row < job_.row_bytes.size() && row_start < until; row_start += job_.row_bytes[row++]) {
-    if (!job_.values) continue;
-    std::vector<std::uint8_t> bytes(job_.row_bytes[row]);
-    master.read_now(job_.address + row_start, bytes.data(), bytes.size());
-    // In the engine, not here: whole rows go through all the kernels, and a thread's stack is small.
-    out_bursts[0]->dataflow().post(
+void DmaReader::send_rows(std::uint64_t until) {
+  for (; row_ < job().row_bytes.size() && row_start_ < until; row_start_ += job().row_bytes[row_++]) {
+    if (!job().values) continue;
+    std::vector<std::uint8_t> bytes(job().row_bytes[row_]);
+    master.read_now(job().address + row_start_, bytes.data(), bytes.size());
+    // In the engine, not here: it goes through all the kernels before any date of the row does.
+    dataflow().post(
         [this, row_values = std::move(bytes)] { out_bursts.send_row(row_values.data(), row_values.size()); });
   }
 }
 
-void DmaReader::arrived() {
-  for (int i = 0; i < out_bursts.size(); ++i) out_bursts[i]->commit();
-  finish(ends_, ++answered_);
+void DmaReader::burst_answered(Cycles cycle) {
+  last_write_ = std::max(cycle, last_write_ + Cycles(1));
+  const Blocked blocked = blocked_.front();
+  blocked_.pop_front();
+  for (int i = 0; i < out_bursts.size(); ++i) {
+    out_bursts[i]->mark_written(last_write_, i == blocked.stream ? blocked.cycles : Cycles(0));
+  }
 }
 
 DmaWriter::DmaWriter(const sc_core::sc_module_name& name, const DmaEngineConfig& config,
                      const ClockDomain& clock)
-    : sc_module(name),
-      master("master", static_cast<std::size_t>(config.burst.count()), config.outstanding,
-             [this](::tlm::tlm_generic_payload&) { finish(ends_, ++answered_); }),
-      config_(config),
-      clock_(clock) {
-  SC_HAS_PROCESS(DmaWriter);
-  SC_THREAD(run);
+    : DmaEngine(name, config, clock) {
   in_bursts.on_row(0, [this](const std::uint8_t* bytes, std::size_t size) {
     bytes_.insert(bytes_.end(), bytes, bytes + size);
   });
 }
 
-void DmaWriter::start(DmaJob job) {
-  jobs_.push_back(std::move(job));
-  started_.notify(sc_core::SC_ZERO_TIME);  // also before the simulation starts
+bool DmaWriter::request_next() {
+  if (!in_bursts->read_date_known()) {
+    in_bursts->wait_for_token();
+    return false;
+  }
+  const Cycles readable = in_bursts->readable_at();
+  const Cycles cycle = std::max(free(), readable);
+  const std::uint64_t size = last_byte() - first_byte();
+  if (job().values && bytes_.size() < size) {
+    if (!has_come(cycle)) {
+      look_again(cycle);
+      return false;
+    }
+    SC_REPORT_ERROR("/parallax/dma/values",
+                    (std::string(name()) + ": a burst is due before its bytes").c_str());
+  }
+  ::tlm::tlm_generic_payload& payload = take_payload(::tlm::TLM_WRITE_COMMAND);
+  if (job().values) {
+    const auto end = bytes_.begin() + static_cast<std::ptrdiff_t>(size);
+    std::copy(bytes_.begin(), end, payload.get_data_ptr());
+    bytes_.erase(bytes_.begin(), end);
+  }
+  starved_ = std::max(Cycles(0), readable - free());
+  request(payload, cycle);
+  return true;
 }
 
-void DmaWriter::run() {
-  const auto burst = static_cast<std::uint64_t>(config_.burst.count());
-  for (;;) {
-    while (jobs_.empty()) sc_core::wait(started_);
-    job_ = std::move(jobs_.front());
-    jobs_.pop_front();
-    const std::uint64_t bytes = job_.bytes();
-    ends_.emplace_back(requested_ + burst_count(bytes, config_.burst), job_.done);
-    finish(ends_, answered_);  // a job without bytes
-    for (std::uint64_t at = 0; at < bytes; at += burst) {
-      const std::uint64_t size = std::min(burst, bytes - at);
-      in_bursts->wait_readable();
-      master.wait_for_place();
-      clock_.wait_until(clock_.now());
-      ::tlm::tlm_generic_payload& payload =
-          master.pool().take(::tlm::TLM_WRITE_COMMAND, job_.address + at, size);
-      if (job_.values) {
-        if (bytes_.size() < size) {
-          SC_REPORT_ERROR("/parallax/dma/values",
-                          (std::string(name()) + ": a burst is due before its bytes").c_str());
-        }
-        const auto end = bytes_.begin() + static_cast<std::ptrdiff_t>(size);
-        std::copy(bytes_.begin(), end, payload.get_data_ptr());
-        bytes_.erase(bytes_.begin(), end);
-      }
-      ++requested_;
-      master.send(payload);
-      in_bursts->release();
-    }
-  }
+void DmaWriter::request_taken(Cycles cycle) {
+  not_free_before(cycle + Cycles(1));  // a FIFO is read once a cycle
+  in_bursts->mark_read(cycle, starved_);
 }
 
 }  // namespace parallax

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <deque>
 #include <functional>
@@ -8,6 +9,7 @@
 #include <vector>
 
 #include "tlm/bus_master.hpp"
+#include "tlm/ring.hpp"
 #include "tlm/stream.hpp"
 #include "tlm/units.hpp"
 
@@ -41,62 +43,115 @@ struct DmaJob {
 /// Bursts that a transfer of `bytes` takes, the last one perhaps shorter.
 std::uint64_t burst_count(std::uint64_t bytes, Bytes burst);
 
-/// Memory to stream: reads the bytes of its jobs in bursts, at most one request a cycle, as long as the FIFO
-/// has a place reserved for the answer. A token is one burst; values are the rows' bytes. Storage: the FIFO.
-///
-/// Values run ahead of time: a row is fetched by a functional access when its first burst is requested, so it
-/// must be in memory by then.
-class DmaReader final : public sc_core::sc_module {
+/// What both engines are: a queue of jobs that are cut into bursts, and requests for them. Requests are sent ahead of
+/// their dates, as soon as these are known, and answers come in the present; so an engine is an actor among the
+/// dataflow's, and no kernel event is spent on a request.
+class DmaEngine : public sc_core::sc_module, public Actor, private BusClient {
  public:
-  StreamOut<std::uint8_t> out_bursts{"out_bursts"};
   BusMaster master;
-
-  DmaReader(const sc_core::sc_module_name& name, const DmaEngineConfig& config, const ClockDomain& clock);
 
   /// Queues a transfer.
   void start(DmaJob job);
 
- private:
-  void run();
-  void send_rows(std::size_t& row, std::uint64_t& row_start, std::uint64_t until);
-  void arrived();
+ protected:
+  DmaEngine(const sc_core::sc_module_name& name, const DmaEngineConfig& config, const ClockDomain& clock);
 
-  const DmaEngineConfig config_;
+  /// The next burst to request: bytes first_byte() to last_byte() - 1 of job().
+  const DmaJob& job() const { return job_; }
+  std::uint64_t first_byte() const { return at_; }
+  std::uint64_t last_byte() const { return std::min(at_ + burst_, bytes_); }
+  /// First cycle in which the engine itself could request it.
+  Cycles free() const { return free_; }
+  void not_free_before(Cycles cycle) { free_ = std::max(free_, cycle); }
+  /// Bursts requested and not answered.
+  std::uint64_t under_way() const { return requested_ - answered_; }
+  ::tlm::tlm_generic_payload& take_payload(::tlm::tlm_command command);
+  /// Requests the burst in `cycle`, free() at the earliest.
+  void request(::tlm::tlm_generic_payload& payload, Cycles cycle);
+  /// Looks at the burst again in `cycle`, if not before.
+  void look_again(Cycles cycle);
+  bool has_come(Cycles cycle) const { return clock_.time_of(cycle) <= sc_core::sc_time_stamp(); }
+
+ private:
+  /// Requests the next burst if its date is known, else says to a stream what it waits for.
+  virtual bool request_next() = 0;
+  virtual void job_begins() {}
+  /// The last request was taken in `cycle`.
+  virtual void request_taken(Cycles cycle) = 0;
+  /// A burst is there in `cycle`, the present one.
+  virtual void burst_answered(Cycles cycle) = 0;
+  virtual Dataflow& dataflow() = 0;
+
+  void advance() override;
+  void taken(const sc_core::sc_time& time) override;
+  void answered(bool was_full) override;
+  bool have_burst();
+  void finish_jobs();
+
+  const std::uint64_t burst_;
   const ClockDomain& clock_;
+  sc_core::sc_event go_on_;
   std::deque<DmaJob> jobs_;
-  DmaJob job_;  // under way; a member, because a thread that never ends frees nothing
-  sc_core::sc_event started_;
-  std::deque<std::pair<std::uint64_t, std::function<void()>>>
-      ends_;  // answers until a job is done, its callback
+  DmaJob job_;               // under way
+  std::uint64_t bytes_ = 0;  // of it
+  std::uint64_t at_ = 0;     // bytes of it that have been requested
+  // Answers until a job is done, its callback.
+  std::deque<std::pair<std::uint64_t, std::function<void()>>> ends_;
   std::uint64_t requested_ = 0;
   std::uint64_t answered_ = 0;
+  Cycles free_{0};
+  Cycles request_cycle_{0};  // of the last request
+  sc_core::sc_time request_time_;
+  bool advancing_ = false;
+};
+
+/// Memory to stream: reads the bytes of its jobs in bursts, at most one request a cycle, as long as the FIFO
+/// has a place reserved for the answer. A token is one burst; values are the rows' bytes. Storage: the FIFO.
+///
+/// Values run ahead of time: a row is fetched by a functional access when its first burst is requested, so it
+/// must be in memory by the start of its job.
+class DmaReader final : public DmaEngine {
+ public:
+  StreamOut<std::uint8_t> out_bursts{"out_bursts"};
+
+  DmaReader(const sc_core::sc_module_name& name, const DmaEngineConfig& config, const ClockDomain& clock)
+      : DmaEngine(name, config, clock) {}
+
+ private:
+  bool request_next() override;
+  void job_begins() override;
+  void request_taken(Cycles) override {}
+  void burst_answered(Cycles cycle) override;
+  Dataflow& dataflow() override { return out_bursts[0]->dataflow(); }
+  void send_rows(std::uint64_t until);
+
+  std::size_t row_ = 0;          // of the job: the next to be handed on
+  std::uint64_t row_start_ = 0;  // byte of the job
+  Cycles last_write_{-1};
+  struct Blocked {
+    int stream = 0;  // the one that had room last
+    Cycles cycles;
+  };
+  Ring<Blocked> blocked_;  // how long lack of room held the requests back that are under way
 };
 
 /// Stream to memory: writes the bursts it is given to the addresses of its jobs. A token is one burst; values
 /// are bytes, in any pieces. Storage: the FIFO before it; a burst leaves it when the memory has taken the
 /// request.
-class DmaWriter final : public sc_core::sc_module {
+class DmaWriter final : public DmaEngine {
  public:
   StreamIn<std::uint8_t> in_bursts{"in_bursts"};
-  BusMaster master;
 
   DmaWriter(const sc_core::sc_module_name& name, const DmaEngineConfig& config, const ClockDomain& clock);
 
-  /// Queues a transfer.
-  void start(DmaJob job);
-
  private:
-  void run();
+  bool request_next() override;
+  void request_taken(Cycles cycle) override;
+  void burst_answered(Cycles) override {}
+  Dataflow& dataflow() override { return in_bursts->dataflow(); }
 
-  const DmaEngineConfig config_;
-  const ClockDomain& clock_;
-  std::deque<DmaJob> jobs_;
-  DmaJob job_;  // under way; a member, because a thread that never ends frees nothing
-  sc_core::sc_event started_;
   std::deque<std::uint8_t> bytes_;
-  std::deque<std::pair<std::uint64_t, std::function<void()>>> ends_;
-  std::uint64_t requested_ = 0;
-  std::uint64_t answered_ = 0;
+  Cycles starved_;  // how long lack of a token held the last request back
 };
 
 }  // namespace parallax

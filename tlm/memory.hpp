@@ -3,8 +3,7 @@
 
 #include <tlm_utils/multi_passthrough_target_socket.h>
 #include <cstdint>
-#include <deque>
-#include <map>
+#include <limits>
 #include <memory>
 #include <string>
 #include <systemc>
@@ -12,6 +11,7 @@
 #include <vector>
 
 #include "tlm/clock_domain.hpp"
+#include "tlm/ring.hpp"
 #include "tlm/units.hpp"
 
 namespace parallax {
@@ -44,6 +44,11 @@ struct MemoryPortStatistics {
 /// the bus for ceil(bytes / (bytes_per_cycle * efficiency)) cycles, one after the other without a gap, and is
 /// answered `latency` plus that time after its service began. Answers keep a port's order.
 ///
+/// Whom an edge of the clock serves is decided when that edge is over and everything that arrived by then is known,
+/// whatever the order in which the kernel runs the initiators. Nothing needs the decision earlier but a request that
+/// waits for a place in the queue: then it is taken at the edge, a delta cycle after what came there first. So a
+/// request takes one kernel event, its answer.
+///
 /// TLM-2.0 target, base protocol: b_transport, the four phases of nb_transport, transport_dbg; no DMI, no
 /// byte enables. A port is one binding of the socket, in the order of binding.
 class Memory final : public sc_core::sc_module {
@@ -52,8 +57,9 @@ class Memory final : public sc_core::sc_module {
 
   Memory(const sc_core::sc_module_name& name, const MemoryTiming& timing, const ClockDomain& clock);
 
-  const MemoryPortStatistics& statistics(std::size_t port) const { return ports_[port].statistics; }
-  std::size_t ports() const { return ports_.size(); }
+  /// What was served until now.
+  const MemoryPortStatistics& statistics(std::size_t port) const;
+  std::size_t ports() const { return arbiter_.ports.size(); }
   /// Cycles that the bus was taken for a port until now: what of `statistics(port).bus` has passed.
   Cycles bus_taken(std::size_t port) const;
   const ClockDomain& clock() const { return clock_; }
@@ -61,19 +67,44 @@ class Memory final : public sc_core::sc_module {
   double usable_bandwidth() const;
 
  private:
+  static constexpr Picoseconds kNever{std::numeric_limits<std::int64_t>::max()};
+
   struct Request {
-    ::tlm::tlm_generic_payload* payload;
-    sc_core::sc_time arrival;
+    ::tlm::tlm_generic_payload* payload = nullptr;
+    Picoseconds arrival;
+    Cycles transfer;                        // on the bus
     sc_core::sc_event* blocking = nullptr;  // of a b_transport caller
   };
   struct Port {
-    std::deque<Request> queue;
+    Ring<Request> queue;
     ::tlm::tlm_generic_payload* refused = nullptr;  // BEGIN_REQ not answered with END_REQ yet
-    sc_core::sc_time refused_arrival;
-    std::deque<Request> answers;
+    Picoseconds refused_arrival;
+    Ring<Request> answers;      // that are due and wait for an END_RESP
     bool answering = false;           // BEGIN_RESP sent, END_RESP not seen
-    sc_core::sc_time answered_until;  // END_RESP's own time; the next BEGIN_RESP is not earlier
+    Picoseconds answered_until;  // END_RESP's own time; the next BEGIN_RESP is not earlier
     MemoryPortStatistics statistics;
+  };
+  struct Served {
+    Picoseconds ready;
+    std::size_t port = 0;
+    Request request;
+  };
+  struct Taken {
+    std::size_t port;
+    ::tlm::tlm_generic_payload* payload;
+    Picoseconds arrival;
+  };
+  // What the decisions of the past add up to.
+  struct Arbiter {
+    std::vector<Port> ports;
+    std::vector<Picoseconds> arrivals;  // of the first request in each queue, or kNever
+    Picoseconds first_arrival = kNever;  // of all
+    std::size_t last_served = 0;
+    Cycles bus_free{0};
+    Picoseconds bus_free_date;
+    Ring<Served> under_way;    // in the order of their answers
+    std::size_t refused = 0;   // on all ports
+    std::vector<Taken> taken;  // refused requests that have found their place, to be told
   };
 
   void end_of_elaboration() override;
@@ -82,11 +113,19 @@ class Memory final : public sc_core::sc_module {
   void b_transport(int id, ::tlm::tlm_generic_payload& payload, sc_core::sc_time& delay);
   unsigned transport_dbg(int id, ::tlm::tlm_generic_payload& payload);
 
-  void serve();
-  void answer();
-  Port* choose(const sc_core::sc_time& now, sc_core::sc_time& next_arrival);
-  void begin_response(std::size_t id);
-  bool access(::tlm::tlm_generic_payload& payload);
+  void run();
+  void enqueue(std::size_t id, const Request& request);
+  void end_requests();
+  bool may_respond(const Port& port) const;
+  void begin_response(std::size_t id, const Request& request);
+  void wake_in_time();
+  void wake_at(Picoseconds date);
+  void serve_until(Picoseconds date, bool inclusive) const;
+  void serve(std::size_t id, Cycles edge) const;
+  Cycles next_edge() const;
+  std::size_t choose(Picoseconds date) const;
+  Cycles transfer_time(const ::tlm::tlm_generic_payload& payload) const;
+  bool access(::tlm::tlm_generic_payload& payload) const;
 
   struct Free {
     void operator()(void* memory) const;
@@ -95,12 +134,12 @@ class Memory final : public sc_core::sc_module {
   const MemoryTiming timing_;
   const ClockDomain& clock_;
   std::unique_ptr<std::uint8_t, Free> bytes_;
-  std::vector<Port> ports_;
-  std::size_t last_served_ = 0;
-  Cycles bus_free_{0};
-  std::multimap<sc_core::sc_time, std::pair<std::size_t, Request>> under_way_;
-  sc_core::sc_event serve_;
-  sc_core::sc_event answer_;
+  mutable Arbiter arbiter_;  // decisions are made late, at the latest when somebody asks
+  sc_core::sc_event wake_;
+  Picoseconds wake_date_ = kNever;  // it has been notified for
+  std::size_t held_ = 0;  // answers that wait for an END_RESP, on all ports
+  bool running_ = false;
+  bool inclusive_ = false;  // the next run decides about the present edge, too
 };
 
 }  // namespace parallax

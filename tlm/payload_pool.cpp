@@ -4,7 +4,7 @@
 namespace parallax {
 
 ::tlm::tlm_generic_payload& PayloadPool::take(::tlm::tlm_command command, std::uint64_t address,
-                                              std::size_t length) {
+                                              std::size_t length, bool data) {
   if (free_.empty()) {
     slots_.push_back(std::make_unique<Slot>());
     Slot& slot = *slots_.back();
@@ -22,6 +22,7 @@ namespace parallax {
   payload.set_byte_enable_ptr(nullptr);
   payload.set_dmi_allowed(false);
   payload.set_response_status(::tlm::TLM_INCOMPLETE_RESPONSE);
+  payload.set_extension(data ? nullptr : &traffic_only_);
   payload.acquire();
   return payload;
 }

@@ -7,6 +7,8 @@
 #include <tlm>
 #include <vector>
 
+#include "tlm/traffic_only.hpp"
+
 namespace parallax {
 
 /// Reference-counted payloads with a data buffer each, for initiators that use the non-blocking interface.
@@ -14,8 +16,9 @@ class PayloadPool final : public ::tlm::tlm_mm_interface {
  public:
   explicit PayloadPool(std::size_t buffer_bytes) : buffer_bytes_(buffer_bytes) {}
 
-  /// A payload with one reference, ready to send; `length` <= buffer_bytes.
-  ::tlm::tlm_generic_payload& take(::tlm::tlm_command command, std::uint64_t address, std::size_t length);
+  /// A payload with one reference, ready to send; `length` <= buffer_bytes. Without `data` it carries TrafficOnly.
+  ::tlm::tlm_generic_payload& take(::tlm::tlm_command command, std::uint64_t address, std::size_t length,
+                                   bool data = true);
 
   void free(::tlm::tlm_generic_payload* payload) override { free_.push_back(payload); }
 
@@ -26,6 +29,7 @@ class PayloadPool final : public ::tlm::tlm_mm_interface {
   };
 
   std::size_t buffer_bytes_;
+  TrafficOnly traffic_only_;
   std::vector<std::unique_ptr<Slot>> slots_;
   std::vector<::tlm::tlm_generic_payload*> free_;
 };

@@ -39,6 +39,9 @@ using Cycles = Quantity<struct CyclesTag>;
 using Bytes = Quantity<struct BytesTag>;
 using Bits = Quantity<struct BitsTag>;
 
+/// A date or duration in kernel time, at the kernel's resolution of a picosecond.
+using Picoseconds = Quantity<struct PicosecondsTag>;
+
 /// A clock frequency, exact.
 using Hertz = Quantity<struct HertzTag>;
 
