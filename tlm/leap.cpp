@@ -230,6 +230,7 @@ bool Leap::observe() {
       member.base = stage.statistics_.firings;
       member.last_event_write = stage.last_write_;
       member.claimed_pending = 0;
+      member.place_firing = 0;
       member.done = 0;
       same = same && repeats(member);
       while (same && !member.ended && member.scanned < member.base) scan(member);
@@ -248,6 +249,7 @@ bool Leap::observe() {
   }
   periods_ = materialized_ = 0;
   holding_ = same;
+  if (same) due_ = find_due();
   release_asked_ = false;
   for (Member& member : members_) {
     if (member.active && !member.takes_part) continue;
@@ -396,10 +398,11 @@ bool Leap::go_on(bool eager) {
     release();
     return true;
   }
-  const bool is_due = due() <= sc_core::sc_time_stamp();
-  if (!eager && !is_due) return false;
-  if (extend()) return true;
-  if (!waits_outside_ || due() <= sc_core::sc_time_stamp()) {
+  if (!eager && due_ > sc_core::sc_time_stamp()) return false;
+  const bool extended = extend();
+  due_ = find_due();
+  if (extended) return true;
+  if (!waits_outside_ || due_ <= sc_core::sc_time_stamp()) {
     release();
     return true;
   }
@@ -468,12 +471,16 @@ void Leap::scan(Member& member) {
         return;
       }
       count = 1;
-      member.events.push_back({member.scanned, consume, produce, false, false});
+      member.events.push_back({member.scanned, consume, produce, false, false, member.cursor});
     } else if (segment.phase_count == 1) {
       count += (segment.repeat - member.cursor.pass - 1) * phase.count;
+      member.scanned += count;
+      stage.skip(member.cursor, count);
+      continue;
     }
     member.scanned += count;
-    stage.skip(member.cursor, count);
+    member.cursor.count += static_cast<std::uint32_t>(count);
+    if (member.cursor.count == phase.count) stage.next_phase(member.cursor);
   }
 }
 
@@ -621,6 +628,8 @@ void Leap::commit_events(Member& member, std::uint64_t until) {
   while (!member.events.empty() && member.events.front().firing < until) {
     const Event event = member.events.front();
     member.events.pop_front();
+    member.place = event.place;
+    member.place_firing = event.firing;
     const Cycles start = start_of(member, event.firing);
     for (const int l : member.in) {
       Link& link = links_[static_cast<std::size_t>(l)];
@@ -675,8 +684,14 @@ void Leap::materialize(Member& member, std::uint64_t periods) {
   Stage& stage = *member.stage;
   const Cycles later(period_ * as_signed(periods));
   const std::uint64_t first = stage.statistics_.firings;
-  stage.skip(stage.next_, periods * member.firings);
+  if (member.place_firing > first) {
+    stage.next_ = member.place;
+    stage.skip(stage.next_, first + periods * member.firings - member.place_firing);
+  } else {
+    stage.skip(stage.next_, periods * member.firings);
+  }
   if (stage.next_.segment == stage.schedule_.segments().size()) stage.next_ = {};
+  stage.phase_ = &stage.phase_at(stage.next_);
   stage.free_ += later;
   stage.statistics_.add(member.delta, as_signed(periods));
   leaped_firings_ += periods * member.firings;
@@ -781,7 +796,7 @@ void Leap::release() {
   }
 }
 
-sc_core::sc_time Leap::due() const {
+sc_core::sc_time Leap::find_due() const {
   // An edge before the first date that is not known, so that it is in time for whoever acts on that date.
   Cycles first(std::numeric_limits<std::int64_t>::max());
   const Cycles later(period_ * as_signed(periods_ - materialized_));

@@ -42,7 +42,7 @@ class Leap {
   /// compute yet; lets go of them where periodic motion ends. Whether anything moved.
   bool go_on(bool eager);
   /// The date before which go_on() must be called again. Everything before it is known.
-  sc_core::sc_time due() const;
+  const sc_core::sc_time& due() const { return due_; }
   /// Brings the state of stages and streams up to where the leap has come.
   void materialize();
   /// A stage that took no part could go on now: the leap ends.
@@ -79,6 +79,7 @@ class Leap {
     PortMask consume, produce;
     bool checked;
     bool pending;  // it is not known when there is room for what it writes
+    Stage::Position place;
   };
   struct Member {
     Stage* stage;
@@ -101,6 +102,8 @@ class Leap {
     std::uint64_t scanned = 0;
     bool ended = false;  // the pattern ends at `scanned`
     std::deque<Event> events;
+    Stage::Position place;           // in the schedule of the last event gone over,
+    std::uint64_t place_firing = 0;  // which was this firing; 0: none
     StageStatistics before;
     std::uint64_t entered_before = 0, left_before = 0;
     Cycles free_before, last_write_before;
@@ -133,6 +136,7 @@ class Leap {
   void materialize(Link& link, std::uint64_t periods);
   void release();
   void set_limits(bool limited, bool with_period);
+  sc_core::sc_time find_due() const;
 
   Dataflow& dataflow_;
   const ClockDomain& clock_;
@@ -142,6 +146,7 @@ class Leap {
   bool holding_ = false;
   bool wide_ = false;
   bool release_asked_ = false;
+  sc_core::sc_time due_;
   bool waits_outside_ = false;  // the last extend() stopped at something that is not known yet
   std::int64_t period_ = 0;     // T, in cycles
   std::uint64_t periods_ = 0;   // gone through since observe()

@@ -38,6 +38,7 @@ void Stage::end_of_elaboration() {
       throw std::logic_error(fmt::format("{}: the schedule names a port that does not exist", name()));
     }
   }
+  if (!schedule_.empty()) phase_ = &phase_at(next_);
   inputs_ = gather(in);
   outputs_ = gather(out);
 }
@@ -81,11 +82,10 @@ void Stage::advance() {
 
 // Starts the next firing if its date is known.
 bool Stage::fire() {
-  const bool frame_begins = next_.segment == 0 && next_.pass == 0 && next_.phase == 0 && next_.count == 0;
+  const bool frame_begins = next_.is_start();
   if (frame_begins && frame_limit_ != 0 && frames_.size() == frame_limit_) return false;
   if (statistics_.firings == fire_limit_) return false;
-  const Schedule::Segment& segment = schedule_.segments()[next_.segment];
-  const Phase& phase = schedule_.phases()[segment.first_phase + next_.phase];
+  const Phase& phase = *phase_;
 
   bool known = true;
   Cycles inputs(0);
@@ -151,7 +151,7 @@ bool Stage::fire() {
       write(firing, start);
     }
   }
-  step(phase);
+  step();
   return true;
 }
 
@@ -203,9 +203,8 @@ void Stage::note_write(FrameDates& frame, Cycles cycle) {
 // Whether the dates that the next firing needs are known.
 bool Stage::can_fire() const {
   if (schedule_.empty()) return false;
-  const bool frame_begins = next_.segment == 0 && next_.pass == 0 && next_.phase == 0 && next_.count == 0;
-  if (frame_begins && frame_limit_ != 0 && frames_.size() == frame_limit_) return false;
-  const Phase& phase = schedule_.phases()[schedule_.segments()[next_.segment].first_phase + next_.phase];
+  if (next_.is_start() && frame_limit_ != 0 && frames_.size() == frame_limit_) return false;
+  const Phase& phase = *phase_;
   for (const StreamBase* stream : inputs_.of_mask[phase.consume]) {
     if (!stream->read_date_known()) return false;
   }
@@ -250,24 +249,14 @@ void Stage::skip(Position& position, std::uint64_t firings) const {
     firings -= step;
     position.count += static_cast<std::uint32_t>(step);
     if (position.count < phases[position.phase].count) return;
-    position.count = 0;
-    if (++position.phase < segment.phase_count) continue;
-    position.phase = 0;
-    if (++position.pass < segment.repeat) continue;
-    position.pass = 0;
-    ++position.segment;
+    next_phase(position);
   }
 }
 
-void Stage::step(const Phase& phase) {
-  if (++next_.count < phase.count) return;
-  next_.count = 0;
-  const Schedule::Segment& segment = schedule_.segments()[next_.segment];
-  if (++next_.phase < segment.phase_count) return;
-  next_.phase = 0;
-  if (++next_.pass < segment.repeat) return;
-  next_.pass = 0;
-  if (++next_.segment == schedule_.segments().size()) next_.segment = 0;
+void Stage::step() {
+  if (++next_.count < phase_->count) return;
+  if (!next_phase(next_)) next_ = {};
+  phase_ = &phase_at(next_);
 }
 
 }  // namespace parallax

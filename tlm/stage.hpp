@@ -129,6 +129,8 @@ class Stage : public sc_core::sc_module, public Actor {
     std::uint64_t pass = 0;
     std::uint32_t phase = 0;
     std::uint32_t count = 0;
+
+    bool is_start() const { return count == 0 && phase == 0 && pass == 0 && segment == 0; }
   };
 
   // When the firing `before` places before the last one started.
@@ -145,7 +147,19 @@ class Stage : public sc_core::sc_module, public Actor {
   bool write(Firing& firing, Cycles earliest);
   void note_write(FrameDates& frame, Cycles cycle);
   void observe(const Phase& phase, Streams consumed);
-  void step(const Phase& phase);
+  void step();
+  bool next_phase(Position& position) const {
+    position.count = 0;
+    const Schedule::Segment& segment = schedule_.segments()[position.segment];
+    if (++position.phase < segment.phase_count) return true;
+    position.phase = 0;
+    if (++position.pass < segment.repeat) return true;
+    position.pass = 0;
+    return ++position.segment != schedule_.segments().size();
+  }
+  const Phase& phase_at(const Position& position) const {
+    return schedule_.phases()[schedule_.segments()[position.segment].first_phase + position.phase];
+  }
   void skip(Position& position, std::uint64_t firings) const;
 
   const ClockDomain& clock_;
@@ -157,6 +171,7 @@ class Stage : public sc_core::sc_module, public Actor {
   Ports outputs_;
 
   Position next_;
+  const Phase* phase_ = nullptr;  // at next_
   std::uint64_t fire_limit_ = std::numeric_limits<std::uint64_t>::max();  // set by Leap
   std::vector<Observed>* observed_ = nullptr;                             // by Leap
   std::array<Cycles, kStartsKept> starts_{};                              // of the last firings
