@@ -17,6 +17,11 @@ BusMaster::BusMaster(const sc_core::sc_module_name& name, std::size_t burst_byte
   socket.register_nb_transport_bw(this, &BusMaster::nb_transport_bw);
 }
 
+sc_core::sc_time BusMaster::place_at() const {
+  const std::size_t sent = requests_.size() + ending_.size();
+  return sent < outstanding_ ? sc_core::SC_ZERO_TIME : ending_[sent - outstanding_].end;
+}
+
 void BusMaster::send(::tlm::tlm_generic_payload& payload, const sc_core::sc_time& time) {
   requests_.push_back({&payload, time});
   requesting_ = &payload;
@@ -42,25 +47,24 @@ void BusMaster::send(::tlm::tlm_generic_payload& payload, const sc_core::sc_time
   }
   if (phase != ::tlm::BEGIN_RESP) return ::tlm::TLM_ACCEPTED;  // a phase that may be ignored
   const sc_core::sc_time date = std::max(find(payload)->time, now + delay);
-  if (date > now) {
-    later_.notify(payload, phase, date - now);
-    return ::tlm::TLM_ACCEPTED;
-  }
+  delay = date - now;
   request_ends(payload, date);
-  answered(payload);
+  answered(payload, date);
   phase = ::tlm::END_RESP;
   return ::tlm::TLM_COMPLETED;
 }
 
-// An answer is due: BEGIN_RESP, or END_RESP when the target has ended the transaction itself.
+// An answer that came with the request is due: BEGIN_RESP, or END_RESP when the target has ended the transaction
+// itself. It is kept until then, so that a target that answers at once sees the requests of all masters in order.
 void BusMaster::phase_due(::tlm::tlm_generic_payload& payload, const ::tlm::tlm_phase& phase) {
-  request_ends(payload, sc_core::sc_time_stamp());
+  const sc_core::sc_time& now = sc_core::sc_time_stamp();
+  request_ends(payload, now);
   if (phase == ::tlm::BEGIN_RESP) {
     ::tlm::tlm_phase end = ::tlm::END_RESP;
     sc_core::sc_time delay = sc_core::SC_ZERO_TIME;
     socket->nb_transport_fw(payload, end, delay);
   }
-  answered(payload);
+  answered(payload, now);
 }
 
 // END_REQ, or an answer that implies it.
@@ -70,7 +74,7 @@ void BusMaster::request_ends(::tlm::tlm_generic_payload& payload, const sc_core:
   client_.taken(time);
 }
 
-void BusMaster::answered(::tlm::tlm_generic_payload& payload) {
+void BusMaster::answered(::tlm::tlm_generic_payload& payload, const sc_core::sc_time& time) {
   if (payload.is_response_error()) {
     SC_REPORT_ERROR("/parallax/dma/response",
                     fmt::format("{}: {} bytes at {:#x}: {}", name(), payload.get_data_length(),
@@ -79,10 +83,15 @@ void BusMaster::answered(::tlm::tlm_generic_payload& payload) {
   }
   const bool was_full = requests_.size() == outstanding_;
   const auto request = find(payload);
-  occupied_ += sc_core::sc_time_stamp() - request->time;
+  const sc_core::sc_time& now = sc_core::sc_time_stamp();
+  auto past = ending_.begin();
+  for (; past != ending_.end() && past->end < now; ++past) occupied_ += past->end - past->begin;
+  ending_.erase(ending_.begin(), past);
+  const auto later = std::find_if(ending_.rbegin(), ending_.rend(), [&](const Span& s) { return s.end <= time; });
+  ending_.insert(later.base(), {request->time, time});
   requests_.erase(request);
   payload.release();
-  client_.answered(was_full);
+  client_.answered(time, was_full);
 }
 
 std::vector<BusMaster::Request>::iterator BusMaster::find(const ::tlm::tlm_generic_payload& payload) {
@@ -93,6 +102,9 @@ std::vector<BusMaster::Request>::iterator BusMaster::find(const ::tlm::tlm_gener
 sc_core::sc_time BusMaster::occupied() const {
   const sc_core::sc_time& now = sc_core::sc_time_stamp();
   sc_core::sc_time sum = occupied_;
+  for (const Span& span : ending_) {
+    if (span.begin < now) sum += std::min(now, span.end) - span.begin;
+  }
   for (const Request& request : requests_) {
     if (request.time < now) sum += now - request.time;
   }

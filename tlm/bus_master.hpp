@@ -18,32 +18,36 @@ class BusClient {
   virtual ~BusClient() = default;
   /// The target has taken the request that was sent last, at `time`, which may be in the future.
   virtual void taken(const sc_core::sc_time& time) = 0;
-  /// A request is answered now, which makes room for another one. `was_full`: nothing could be sent before.
-  virtual void answered(bool was_full) = 0;
+  /// The answer to a request comes at `time`, now or in the future. `was_full`: until this call, BusMaster::ready() was
+  /// false because of it.
+  virtual void answered(const sc_core::sc_time& time, bool was_full) = 0;
 };
 
 /// The request and response side of a DMA engine: a TLM-2.0 initiator that keeps to the base protocol, with
 /// several requests on the way. A request whose date is known is sent ahead of it, with the date as timing
-/// annotation, so that no kernel event is spent on it.
+/// annotation, and a target may answer ahead likewise, so that no kernel event is spent on either.
 class BusMaster final : public sc_core::sc_module {
  public:
   tlm_utils::simple_initiator_socket<BusMaster> socket{"socket"};
 
-  /// `outstanding` >= 1: requests sent and not answered.
+  /// `outstanding` >= 1: requests under way at once.
   BusMaster(const sc_core::sc_module_name& name, std::size_t burst_bytes, std::uint32_t outstanding,
             BusClient& client);
 
   PayloadPool& pool() { return pool_; }
-  /// Whether a request may be sent: the target has taken the one before, and fewer than `outstanding` are on the
-  /// way. When not, BusClient says when that has changed.
+  /// Whether it is known when a request may be sent: the target has taken the one before, and it is known when fewer
+  /// than `outstanding` are under way. When not, BusClient says when that has changed.
   bool ready() const { return requesting_ == nullptr && requests_.size() < outstanding_; }
-  /// Needs ready(). Sends a payload of the pool with its date, `time`: not before the present, nor before the
-  /// request before was taken. An answer that is an error is reported with SC_REPORT_ERROR
+  /// Needs ready(). When fewer than `outstanding` are under way: that date, or one in the past.
+  sc_core::sc_time place_at() const;
+  /// Needs ready(). Sends a payload of the pool with its date, `time`: not before the present, place_at(), and when
+  /// the request before was taken. An answer that is an error is reported with SC_REPORT_ERROR
   /// /parallax/dma/response.
   void send(::tlm::tlm_generic_payload& payload, const sc_core::sc_time& time);
   /// Functional access, in no time.
   void read_now(std::uint64_t address, std::uint8_t* data, std::size_t size);
 
+  /// Requests whose answer is not known.
   std::size_t in_flight() const { return requests_.size(); }
 
   /// Time that requests were under way until now, summed over them: at most `outstanding` times the present
@@ -55,20 +59,25 @@ class BusMaster final : public sc_core::sc_module {
     ::tlm::tlm_generic_payload* payload;
     sc_core::sc_time time;
   };
+  struct Span {
+    sc_core::sc_time begin;
+    sc_core::sc_time end;
+  };
 
   ::tlm::tlm_sync_enum nb_transport_bw(::tlm::tlm_generic_payload& payload, ::tlm::tlm_phase& phase,
                                        sc_core::sc_time& delay);
   void phase_due(::tlm::tlm_generic_payload& payload, const ::tlm::tlm_phase& phase);
   void request_ends(::tlm::tlm_generic_payload& payload, const sc_core::sc_time& time);
-  void answered(::tlm::tlm_generic_payload& payload);
+  void answered(::tlm::tlm_generic_payload& payload, const sc_core::sc_time& time);
   std::vector<Request>::iterator find(const ::tlm::tlm_generic_payload& payload);
 
   PayloadPool pool_;
   std::uint32_t outstanding_;
   BusClient& client_;
-  tlm_utils::peq_with_cb_and_phase<BusMaster> later_;  // answers that the target dated in the future
-  std::vector<Request> requests_;                      // sent and not answered, in order
-  sc_core::sc_time occupied_;                          // by those that are answered
+  tlm_utils::peq_with_cb_and_phase<BusMaster> later_;  // answers that came with the request and are dated later
+  std::vector<Request> requests_;                      // not answered, in order
+  std::vector<Span> ending_;                           // of those whose answer is known and was to come, by `end`
+  sc_core::sc_time occupied_;                          // by those before
   ::tlm::tlm_generic_payload* requesting_ = nullptr;   // sent, END_REQ not seen
 };
 

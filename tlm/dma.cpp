@@ -34,8 +34,12 @@ void DmaEngine::start(DmaJob job) {
 }
 
 void DmaEngine::advance() {
+  finish_jobs();
   advancing_ = true;
-  while (have_burst() && master.ready() && request_next()) continue;
+  while (have_burst() && master.ready()) {
+    free_ = std::max(free_, clock_.cycle_at_or_after(master.place_at()));
+    if (!request_next()) break;
+  }
   advancing_ = false;
 }
 
@@ -48,7 +52,7 @@ bool DmaEngine::have_burst() {
     bytes_ = job_.bytes();
     at_ = 0;
     free_ = std::max(free_, clock_.now());
-    ends_.emplace_back(requested_ + burst_count(bytes_, Bytes(burst_)), std::move(job_.done));
+    ends_.push_back({requested_ + burst_count(bytes_, Bytes(burst_)), std::move(job_.done), last_answer_});
     finish_jobs();  // it may be without bytes
     job_begins();
   }
@@ -79,18 +83,27 @@ void DmaEngine::taken(const sc_core::sc_time& time) {
   if (!advancing_) dataflow().wake(*this);
 }
 
-void DmaEngine::answered(bool was_full) {
-  const Cycles now = clock_.now();
-  if (was_full) free_ = std::max(free_, now);
+void DmaEngine::answered(const sc_core::sc_time& time, bool was_full) {
+  const Cycles cycle = clock_.cycle_at_or_after(time);
   ++answered_;
-  burst_answered(now);
-  finish_jobs();
+  last_answer_ = std::max(last_answer_, time);
+  burst_answered(cycle);
+  for (End& end : ends_) {
+    if (end.answers == answered_) end.time = last_answer_;
+  }
+  if (!ends_.empty() && ends_.front().answers <= answered_) finish_jobs();
   if (was_full) dataflow().wake(*this);
 }
 
+// Calls back for the jobs whose last answer is there, and when the next one will be.
 void DmaEngine::finish_jobs() {
-  while (!ends_.empty() && ends_.front().first <= answered_) {
-    const auto done = std::move(ends_.front().second);
+  const sc_core::sc_time& now = sc_core::sc_time_stamp();
+  while (!ends_.empty() && ends_.front().answers <= answered_) {
+    if (ends_.front().time > now) {
+      go_on_.notify(ends_.front().time - now);
+      return;
+    }
+    const auto done = std::move(ends_.front().done);
     ends_.pop_front();
     if (done) done();
   }

@@ -78,13 +78,13 @@ class DmaEngine : public sc_core::sc_module, public Actor, private BusClient {
   virtual void job_begins() {}
   /// The last request was taken in `cycle`.
   virtual void request_taken(Cycles cycle) = 0;
-  /// A burst is there in `cycle`, the present one.
+  /// The next burst is there in `cycle`, the present one or later.
   virtual void burst_answered(Cycles cycle) = 0;
   virtual Dataflow& dataflow() = 0;
 
   void advance() override;
   void taken(const sc_core::sc_time& time) override;
-  void answered(bool was_full) override;
+  void answered(const sc_core::sc_time& time, bool was_full) override;
   bool have_burst();
   void finish_jobs();
 
@@ -95,8 +95,13 @@ class DmaEngine : public sc_core::sc_module, public Actor, private BusClient {
   DmaJob job_;               // under way
   std::uint64_t bytes_ = 0;  // of it
   std::uint64_t at_ = 0;     // bytes of it that have been requested
-  // Answers until a job is done, its callback.
-  std::deque<std::pair<std::uint64_t, std::function<void()>>> ends_;
+  struct End {  // of a job
+    std::uint64_t answers;  // the last one's number
+    std::function<void()> done;
+    sc_core::sc_time time;  // of the last answer, once `answers` have come
+  };
+  std::deque<End> ends_;
+  sc_core::sc_time last_answer_;
   std::uint64_t requested_ = 0;
   std::uint64_t answered_ = 0;
   Cycles free_{0};

@@ -52,6 +52,7 @@ void Memory::end_of_elaboration() {
 
 const MemoryPortStatistics& Memory::statistics(std::size_t port) const {
   serve_until(present(), false);
+  count_answers(arbiter_.ports[port]);
   return arbiter_.ports[port].statistics;
 }
 
@@ -74,7 +75,7 @@ double Memory::usable_bandwidth() const {
   if (phase == ::tlm::END_RESP) {
     port.answering = false;
     port.answered_until = now + date(delay);
-    if (!port.answers.empty()) wake_at(port.answered_until);
+    if (!port.held.empty()) wake_at(std::max(port.answered_until, port.held.front().ready));
     return ::tlm::TLM_COMPLETED;
   }
   if (phase != ::tlm::BEGIN_REQ) {
@@ -114,8 +115,8 @@ void Memory::enqueue(std::size_t id, const Request& request) {
     arbiter_.first_arrival = std::min(arbiter_.first_arrival, request.arrival);
   }
   queue.push_back(request);
-  // Whatever is under way is answered before this request can be.
-  if (arbiter_.under_way.empty() || arbiter_.refused != 0) wake_in_time();
+  // Its answer comes after those before it in the queue, and after its arrival.
+  if (queue.size() == 1 && request.arrival < wake_date_) wake_in_time();
 }
 
 unsigned Memory::transport_dbg(int, ::tlm::tlm_generic_payload& payload) {
@@ -190,7 +191,7 @@ void Memory::serve(std::size_t id, Cycles edge) const {
   arbiter_.last_served = id;
   arbiter_.bus_free = edge + request.transfer;
   arbiter_.bus_free_date = clock_.date_of(arbiter_.bus_free);
-  arbiter_.under_way.push_back({clock_.date_of(arbiter_.bus_free + timing_.latency), id, request});
+  arbiter_.answers.push_back({request, clock_.date_of(arbiter_.bus_free + timing_.latency), id});
   if (port.refused != nullptr) {
     ::tlm::tlm_generic_payload& taken = *std::exchange(port.refused, nullptr);
     --arbiter_.refused;
@@ -207,24 +208,24 @@ void Memory::run() {
   wake_date_ = kNever;
   serve_until(now, std::exchange(inclusive_, false));
   end_requests();
-  while (!arbiter_.under_way.empty() && arbiter_.under_way.front().ready <= now) {
-    const Served served = arbiter_.under_way.front();
-    arbiter_.under_way.pop_front();
-    Port& port = arbiter_.ports[served.port];
-    if (port.answers.empty() && may_respond(port)) {
-      begin_response(served.port, served.request);
-    } else {
-      port.answers.push_back(served.request);
+  while (!arbiter_.answers.empty()) {
+    const Answer answer = arbiter_.answers.front();
+    arbiter_.answers.pop_front();
+    Port& port = arbiter_.ports[answer.port];
+    if (port.answering || !port.held.empty()) {
+      port.held.push_back(answer);
       ++held_;
+    } else {
+      begin_response(answer);
     }
   }
   for (std::size_t id = 0; held_ != 0 && id < arbiter_.ports.size(); ++id) {
     Port& port = arbiter_.ports[id];
-    while (!port.answers.empty() && may_respond(port)) {
-      const Request request = port.answers.front();
-      port.answers.pop_front();
+    while (!port.held.empty() && !port.answering) {
+      const Answer answer = port.held.front();
+      port.held.pop_front();
       --held_;
-      begin_response(id, request);
+      begin_response(answer);
     }
   }
   running_ = false;
@@ -241,51 +242,49 @@ void Memory::end_requests() {
   }
 }
 
-bool Memory::may_respond(const Port& port) const {
-  return !port.answering && port.answered_until <= present();
-}
-
-void Memory::begin_response(std::size_t id, const Request& request) {
-  Port& port = arbiter_.ports[id];
+void Memory::begin_response(const Answer& answer) {
+  Port& port = arbiter_.ports[answer.port];
   const Picoseconds now = present();
-  const sc_core::sc_time latency = time(now - request.arrival);
-  port.statistics.latency_sum += latency;
-  port.statistics.latency_largest = std::max(port.statistics.latency_largest, latency);
-  if (request.blocking != nullptr) {
-    request.blocking->notify();
+  const Picoseconds at = std::max({now, answer.ready, port.answered_until});
+  count_answers(port);
+  port.told.push_back({at, at - answer.request.arrival});
+  sc_core::sc_time delay = time(at - now);
+  if (answer.request.blocking != nullptr) {
+    answer.request.blocking->notify(delay);
     return;
   }
   ::tlm::tlm_phase phase = ::tlm::BEGIN_RESP;
-  sc_core::sc_time delay = sc_core::SC_ZERO_TIME;
   const ::tlm::tlm_sync_enum status =
-      socket[static_cast<int>(id)]->nb_transport_bw(*request.payload, phase, delay);
+      socket[static_cast<int>(answer.port)]->nb_transport_bw(*answer.request.payload, phase, delay);
   port.answering =
       status == ::tlm::TLM_ACCEPTED || (status == ::tlm::TLM_UPDATED && phase != ::tlm::END_RESP);
   if (!port.answering) port.answered_until = now + date(delay);
-  request.payload->release();
+  answer.request.payload->release();
+}
+
+// Counts the answers that were told ahead of their dates and are there now.
+void Memory::count_answers(Port& port) const {
+  const Picoseconds now = present();
+  for (; !port.told.empty() && port.told.front().date <= now; port.told.pop_front()) {
+    const sc_core::sc_time latency = time(port.told.front().latency);
+    port.statistics.latency_sum += latency;
+    port.statistics.latency_largest = std::max(port.statistics.latency_largest, latency);
+  }
 }
 
 // Notifies the next event: no later than the next answer is due, and than somebody has to be told that his request
 // is taken.
 void Memory::wake_in_time() {
-  if (running_) return;  // run() ends with this
-  if (!arbiter_.under_way.empty()) {
-    wake_at(arbiter_.under_way.front().ready);
-  } else if (arbiter_.first_arrival != kNever) {
-    // The answer to whoever would be served next as things are. A request that changes this comes through here.
-    const Cycles edge = next_edge();
-    const Port& port = arbiter_.ports[choose(clock_.date_of(edge))];
-    wake_at(clock_.date_of(edge + port.queue.front().transfer + timing_.latency));
-  }
+  if (running_ || arbiter_.first_arrival == kNever) return;  // run() ends with this
+  // The answer to whoever would be served next as things are. A request that changes this comes through here.
+  const Cycles edge = next_edge();
+  const Picoseconds at = clock_.date_of(edge);
+  const Port& port = arbiter_.ports[choose(at)];
+  wake_at(clock_.date_of(edge + port.queue.front().transfer + timing_.latency));
   if (arbiter_.refused != 0) {
     const Picoseconds now = present();
-    const Picoseconds at = clock_.date_of(next_edge());
     inclusive_ = at <= now;
     wake_at(std::max(at, now));
-  }
-  for (std::size_t id = 0; held_ != 0 && id < arbiter_.ports.size(); ++id) {
-    const Port& port = arbiter_.ports[id];
-    if (!port.answers.empty() && !port.answering) wake_at(port.answered_until);
   }
 }
 

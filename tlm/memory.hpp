@@ -46,8 +46,9 @@ struct MemoryPortStatistics {
 ///
 /// Whom an edge of the clock serves is decided when that edge is over and everything that arrived by then is known,
 /// whatever the order in which the kernel runs the initiators. Nothing needs the decision earlier but a request that
-/// waits for a place in the queue: then it is taken at the edge, a delta cycle after what came there first. So a
-/// request takes one kernel event, its answer.
+/// waits for a place in the queue: then it is taken at the edge, a delta cycle after what came there first. Decisions
+/// wait for the first answer that has to be given; at its date all that are known are given, the others with their
+/// dates as timing annotation. So a kernel event serves one request or several.
 ///
 /// TLM-2.0 target, base protocol: b_transport, the four phases of nb_transport, transport_dbg; no DMI, no
 /// byte enables. A port is one binding of the socket, in the order of binding.
@@ -75,19 +76,24 @@ class Memory final : public sc_core::sc_module {
     Cycles transfer;                        // on the bus
     sc_core::sc_event* blocking = nullptr;  // of a b_transport caller
   };
+  struct Answer {
+    Request request;
+    Picoseconds ready;
+    std::size_t port = 0;
+  };
+  struct Told {  // an answer ahead of its date
+    Picoseconds date;
+    Picoseconds latency;
+  };
   struct Port {
     Ring<Request> queue;
     ::tlm::tlm_generic_payload* refused = nullptr;  // BEGIN_REQ not answered with END_REQ yet
     Picoseconds refused_arrival;
-    Ring<Request> answers;      // that are due and wait for an END_RESP
-    bool answering = false;           // BEGIN_RESP sent, END_RESP not seen
+    bool answering = false;      // BEGIN_RESP sent, END_RESP not seen
     Picoseconds answered_until;  // END_RESP's own time; the next BEGIN_RESP is not earlier
-    MemoryPortStatistics statistics;
-  };
-  struct Served {
-    Picoseconds ready;
-    std::size_t port = 0;
-    Request request;
+    Ring<Answer> held;           // wait for the END_RESP
+    Ring<Told> told;
+    MemoryPortStatistics statistics;  // until the first date in `told`
   };
   struct Taken {
     std::size_t port;
@@ -102,7 +108,7 @@ class Memory final : public sc_core::sc_module {
     std::size_t last_served = 0;
     Cycles bus_free{0};
     Picoseconds bus_free_date;
-    Ring<Served> under_way;    // in the order of their answers
+    Ring<Answer> answers;      // not told yet, in their order
     std::size_t refused = 0;   // on all ports
     std::vector<Taken> taken;  // refused requests that have found their place, to be told
   };
@@ -116,8 +122,8 @@ class Memory final : public sc_core::sc_module {
   void run();
   void enqueue(std::size_t id, const Request& request);
   void end_requests();
-  bool may_respond(const Port& port) const;
-  void begin_response(std::size_t id, const Request& request);
+  void begin_response(const Answer& answer);
+  void count_answers(Port& port) const;
   void wake_in_time();
   void wake_at(Picoseconds date);
   void serve_until(Picoseconds date, bool inclusive) const;
