@@ -2,6 +2,7 @@
 #include "platform/pipeline.hpp"
 
 #include <algorithm>
+#include <initializer_list>
 
 namespace parallax {
 namespace {
@@ -39,6 +40,8 @@ Stream<T>& Pipeline::stream(const char* name, std::int64_t width_bits, std::uint
   FifoConfig fifo;
   fifo.depth = config_.streams.resolve(name, static_cast<std::uint32_t>(needed_depth));
   fifo.width = Bits(width_bits);
+  fifo.kind = config_.streams.kind(name);
+  fifo.synchroniser_stages = config_.streams.synchroniser_stages;
   auto made = std::make_unique<Stream<T>>(name, context_.dataflow, context_.clock, context_.clock, fifo);
   Stream<T>& reference = *made;
   streams_.push_back(std::move(made));
@@ -86,24 +89,47 @@ Pipeline::Pipeline(const sc_core::sc_module_name& name, const MachineConfig& con
   const std::int64_t offset_bits = 4 * config.rectification.range.offset_bits();
 
   // Paths that fork and meet again: the shorter one must hold what the longer one holds back, that is its
-  // look-ahead in tokens, and what passes during its pipeline latency at one token a cycle. A FIFO adds two
-  // cycles.
-  constexpr std::uint64_t kFifoCycles = 2;
-  const std::uint64_t to_uniqueness = groups + time.subpixel.latency + kFifoCycles;
-  const std::uint64_t to_consistency = to_uniqueness + groups + time.uniqueness.latency + kFifoCycles;
+  // look-ahead in tokens, and what passes, at one token a cycle, during its pipeline latency, in its FIFOs, and until
+  // the place in the shorter one's FIFO is free again.
+  const auto through = [&](const char* fifo) { return std::uint64_t{config.streams.offsets(fifo).write_to_read}; };
+  const auto back = [&](const char* fifo) { return std::uint64_t{config.streams.offsets(fifo).read_to_write}; };
+  // For a long path: a token's way through its FIFOs and the place's way back in `shorter`; or, when that is more, the
+  // places' ways back on the path itself as well, so that both paths hold about as much when it is held up.
+  const auto path = [&](const char* shorter, std::initializer_list<const char*> fifos) {
+    std::uint64_t forth = 0;
+    std::uint64_t returns = 0;
+    for (const char* fifo : fifos) {
+      forth += through(fifo);
+      returns += back(fifo);
+    }
+    return forth + std::max(returns, back(shorter));
+  };
+  // Two streams side by side: the longer delay.
+  const auto later = [&](const char* a, const char* b) {
+    return through(a) + back(a) < through(b) + back(b) ? b : a;
+  };
+  const std::uint64_t to_uniqueness = groups - 1 + through("costs_subpixel") + time.subpixel.latency +
+                                      through("winners") + back("costs_uniqueness");
+  const std::uint64_t to_consistency =
+      to_uniqueness + groups + time.uniqueness.latency + through("unique") + back("costs_consistency");
   const std::uint64_t disparities_ahead =
       census_.look_ahead() + matching_.look_ahead() + consistency_.look_ahead();
-  const std::uint64_t to_texture = disparities_ahead + time.census.latency + time.matching.latency +
-                                   time.subpixel.latency + time.uniqueness.latency +
-                                   time.consistency.latency + 6 * kFifoCycles + groups;
+  const std::uint64_t to_texture =
+      disparities_ahead + time.census.latency + time.matching.latency + time.subpixel.latency +
+      time.uniqueness.latency + time.consistency.latency +
+      path("left_texture", {later("left_rectified", "right_rectified"), later("left_codes", "right_codes"),
+                            "costs_subpixel", "winners", "unique", "consistent"}) +
+      groups;
   // The texture filter looks ahead too, on the image alone: what it is ahead of the disparities waits there.
   const std::uint64_t image_ahead = texture_.look_ahead();
-  const std::uint64_t to_disparity =
-      image_ahead > disparities_ahead ? image_ahead - disparities_ahead + kFifoCycles : 0;
+  const std::uint64_t to_disparity = image_ahead > disparities_ahead
+                                         ? image_ahead - disparities_ahead + through("left_texture") + back("consistent")
+                                         : 0;
   const std::uint64_t to_output =
-      std::max(to_texture, image_ahead + kFifoCycles) + speckle_.look_ahead() +
+      std::max(to_texture, image_ahead + through("left_texture") + back("left_texture")) + speckle_.look_ahead() +
       gap_interpolation_.look_ahead() + noise_reduction_.look_ahead() + time.texture.latency +
-      time.speckle.latency + time.gap_interpolation.latency + time.noise_reduction.latency + 4 * kFifoCycles;
+      time.speckle.latency + time.gap_interpolation.latency + time.noise_reduction.latency +
+      path("left_output", {"textured", "despeckled", "interpolated", "smoothed"});
 
   const auto connect = [](auto& out, auto& in, auto& between) {
     out(between);

@@ -8,8 +8,8 @@ module chain8 #(
     input  logic clk,
     input  logic want_write,
     input  logic want_read,
-    output logic wrote,     // the source has written in this cycle
-    output logic was_read,  // the sink has read in this cycle
+    output logic wrote,     // the source writes in this cycle
+    output logic was_read,  // the sink reads in this cycle
     output logic disorder   // some token has been lost, doubled or overtaken
 );
   localparam int STAGES = 8;
@@ -19,10 +19,10 @@ module chain8 #(
   logic [STAGES:0] out_valid;
   logic [STAGES:0] out_ready;
   logic [WIDTH-1:0] out_data[STAGES+1];
-  logic [STAGES-1:0] wrong;
-  logic [WIDTH-1:0] number = 0;
-  logic [WIDTH-1:0] expected = 0;
+  logic [STAGES:0] wrong;
 
+  source #(.WIDTH(WIDTH)) source (
+      .clk, .want(want_write), .valid(in_valid[0]), .ready(in_ready[0]), .data(in_data[0]));
   for (genvar i = 0; i <= STAGES; ++i) begin : link
     fifo_registered #(.DEPTH(DEPTH), .WIDTH(WIDTH)) fifo (
         .clk,
@@ -36,14 +36,10 @@ module chain8 #(
         .out_valid(in_valid[i+1]), .out_ready(in_ready[i+1]), .out_data(in_data[i+1]),
         .disorder(wrong[i]));
   end
-  assign in_valid[0] = want_write;
-  assign in_data[0] = number;
-  assign wrote = want_write && in_ready[0];
-  assign out_ready[STAGES] = want_read;
-  assign was_read = want_read && out_valid[STAGES];
-  assign disorder = wrong != 0 || (was_read && out_data[STAGES] != expected);
-  always_ff @(posedge clk) begin
-    if (wrote) number <= number + 1;
-    if (was_read) expected <= expected + 1;
-  end
+  sink #(.WIDTH(WIDTH)) sink (
+      .clk, .want(want_read), .valid(out_valid[STAGES]), .ready(out_ready[STAGES]), .data(out_data[STAGES]),
+      .disorder(wrong[STAGES]));
+  assign wrote = in_valid[0] && in_ready[0];
+  assign was_read = out_valid[STAGES] && out_ready[STAGES];
+  assign disorder = wrong != 0;
 endmodule

@@ -75,7 +75,9 @@ RC_GTEST_PROP(PipelineReference, EveryDateWithAnyDepthsAndTheSameDeadlocks, ()) 
 // (They could let the next one begin while this one is flushed.)
 RC_GTEST_PROP(PipelineReference, AutomaticDepthsCostNoCycle, ()) {
   PipelineCase c = random_pipeline(Depths::kAutomatic, 1);
-  c.config.streams.default_depth = std::max(2u, c.config.streams.default_depth);
+  // A token a cycle needs places for the way there and back.
+  c.config.streams.default_depth =
+      std::max(2 * (1 + c.config.streams.synchroniser_stages), c.config.streams.default_depth);
   for (auto* stalls : {&c.left, &c.right, &c.map_stalls, &c.output}) {
     std::fill(stalls->begin(), stalls->end(), 0u);
   }

@@ -105,7 +105,9 @@ class PipelineSimulation {
     add_end(map_node_, map_);
     add_end(output_node_, output_);
     for (const StreamBase* stream : dataflow_.streams()) {
-      edges[stream].depth = stream->depth();
+      const FifoConfig& fifo = stream->config();
+      edges[stream].depth = fifo.depth;
+      edges[stream].of_kind(fifo.kind, fifo.synchroniser_stages);
       graph.edges.push_back(edges[stream]);
     }
     return graph;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Random graphs: chains, forks and joins that meet again, look-ahead in rows, changes of rate, depths 1 to
-// 4096, all kinds of FIFO and other offsets, several clocks, random stalls at both ends. Some of them deadlock; that is part of what is compared.
+// 4096, all kinds of FIFO and other offsets, several clocks, random stalls at both ends. Some of them
+// deadlock; that is part of what is compared.
 #pragma once
 
 #include <rapidcheck.h>
@@ -120,14 +121,15 @@ class RandomGraph {
         if (!one_clock) {
           edge.of_kind(FifoKind::kAsynchronous, static_cast<std::uint32_t>(number(1, 4)));
         } else {
-          edge.of_kind(*rc::gen::element(FifoKind::kRegistered, FifoKind::kFirstWordFallThrough, FifoKind::kBlockRam,
-                                         FifoKind::kAsynchronous),
+          edge.of_kind(*rc::gen::element(FifoKind::kRegistered, FifoKind::kFirstWordFallThrough,
+                                         FifoKind::kBlockRam, FifoKind::kAsynchronous),
                        static_cast<std::uint32_t>(number(1, 4)));
         }
         break;
       case 1: {
         const int least = one_clock ? 0 : 1;
-        const int most = number(0, 1) == 0 ? 1 : 4;  // offsets of 0 on several edges at a time shall be no rarity
+        const int most =
+            number(0, 1) == 0 ? 1 : 4;  // offsets of 0 on several edges at a time shall be no rarity
         edge.write_to_read = static_cast<std::uint32_t>(number(least, most));
         edge.read_to_write = static_cast<std::uint32_t>(number(least, most));
         break;

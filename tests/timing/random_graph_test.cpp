@@ -38,7 +38,8 @@ TEST(RandomGraph, EveryDateEqualsTheReference) {
         const auto leap_interval = *rc::gen::element<std::uint64_t>(1, 10, 40);
         std::string text = in_child([&] {
           const std::vector<EdgeDates> expected = ReferenceSimulation(graph).run();
-          const std::string found = differences(expected, ModelSimulation(graph, threads, leap_interval).run());
+          const std::string found =
+              differences(expected, ModelSimulation(graph, threads, leap_interval).run());
           return (is_stuck(graph, expected) ? std::string(1, kStuck) : std::string()) + found;
         });
         const bool stuck = !text.empty() && text.front() == kStuck;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Small machines with random paces, latencies, windows, depths, bursts and maps.
+// Small machines with random paces, latencies, windows, depths, kinds of FIFO, bursts and maps.
 #pragma once
 
 #include <rapidcheck.h>
@@ -72,15 +72,26 @@ inline PipelineCase random_pipeline(Depths depths, std::uint64_t frames, int lar
     *port = random_port();
   }
   config.streams.default_depth = count(1, 20);
+  config.streams.synchroniser_stages = count(1, 4);
+  const auto kind = [] {
+    return *rc::gen::element(FifoKind::kRegistered, FifoKind::kFirstWordFallThrough, FifoKind::kBlockRam,
+                             FifoKind::kAsynchronous);
+  };
+  if (number(0, 1) == 0) config.streams.default_kind = kind();
+  if (number(0, 1) == 0) {
+    for (StreamKind& stream : config.streams.kinds) {
+      if (number(0, 2) == 0) stream.kind = kind();
+    }
+  }
   if (depths == Depths::kRandom) {
     for (StreamDepth& stream : config.streams.depths) {
       if (number(0, 4) == 0) stream.tokens = count(1, number(0, 1) == 0 ? 20 : 400);
     }
   }
   const OffsetRange& range = config.rectification.range;
-  const int kind = number(0, 2);
-  c.map = encode(kind == 0   ? identity_map(width, height, range)
-                 : kind == 1 ? lens_map(width, height, range)
+  const int lens = number(0, 2);
+  c.map = encode(lens == 0   ? identity_map(width, height, range)
+                 : lens == 1 ? lens_map(width, height, range)
                              : noise_map(width, height, range, count(1, 1000000)));
   const PipelineBursts bursts(config, c.map);
   c.left = random_stalls(frames * bursts.left);

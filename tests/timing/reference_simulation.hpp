@@ -2,10 +2,10 @@
 // The reference for every date: a plain simulation that goes through time edge by edge and moves one token at
 // a time through explicit registers, as the circuit does. It shares no code with the model.
 //
-// A FIFO may let a token or a place through in the same cycle. So the nodes are gone through, at one time, until none
-// moves any more: what a combinational path would settle to. A move never takes away what another one needs, each
-// token and each place having one taker, so the end does not depend on the order of the nodes. Nodes that wait for
-// each other within one cycle do not move.
+// A FIFO may let a token or a place through in the same cycle. So the nodes are gone through, at one time,
+// until none moves any more: what a combinational path would settle to. A move never takes away what another
+// one needs, each token and each place having one taker, so the end does not depend on the order of the
+// nodes. Nodes that wait for each other within one cycle do not move.
 #pragma once
 
 #include <algorithm>
@@ -81,7 +81,7 @@ class ReferenceSimulation {
     std::size_t next = 0;
     std::int64_t busy_until = 0;
     std::vector<std::optional<Moving>> registers;  // the pipeline
-    std::size_t tokens = 0;                          // source and sink
+    std::size_t tokens = 0;                        // source and sink
     std::int64_t ready = 0;
   };
 
@@ -149,7 +149,8 @@ class ReferenceSimulation {
       fifos_[e].written = true;
     }
   }
-  // At the end of a cycle. A place that was read in it still counts where it is free from a later edge on only.
+  // At the end of a cycle. A place that was read in it still counts where it is free from a later edge on
+  // only.
   void count_tokens(std::size_t e, std::int64_t time) {
     Fifo& fifo = fifos_[e];
     if (!fifo.written) return;
