@@ -39,6 +39,7 @@ Stream<T>& Pipeline::stream(const char* name, std::int64_t width_bits, std::uint
   FifoConfig fifo;
   fifo.depth = config_.streams.resolve(name, static_cast<std::uint32_t>(needed_depth));
   fifo.width = Bits(width_bits);
+  fifo.kind = FifoKind::kRegistered;
   auto made = std::make_unique<Stream<T>>(name, context_.dataflow, context_.clock, context_.clock, fifo);
   Stream<T>& reference = *made;
   streams_.push_back(std::move(made));
