@@ -91,7 +91,7 @@ ForkedCall call_in_fork(const std::function<std::string()>& function,
   }
   if (WIFSIGNALED(status)) call.signal = WTERMSIG(status);
   // A signal from the terminal reaches both: this process has noted it, the child has ended.
-  if (call.signal != 0 && interrupted()) call.interrupted = true;
+  if (call.signal != 0 && !call.interrupted) call.interrupted = interrupted();
   return call;
 }
 

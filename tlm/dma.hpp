@@ -25,6 +25,7 @@ struct DmaEngineConfig {
     FifoConfig config;
     config.depth = fifo_bursts;
     config.width = Bits(burst.count() * 8);
+    config.kind = FifoKind::kRegistered;
     config.at_memory = true;
     return config;
   }

@@ -142,5 +142,17 @@ TEST(MapCodec, RowLengthsMustBeTheRowsOwn) {
   EXPECT_NE(message(cut).find("row 7 ends at byte"), std::string::npos) << message(cut);
 }
 
+TEST(MapEncoder, GivesAMapAfterItsLastRowOnly) {
+  MapEncoder encoder(4, 2, {});
+  const std::vector<OffsetPair> row(4);
+  encoder.push(row.data());
+  EXPECT_THROW(encoder.take(), std::logic_error);
+  encoder.push(row.data());
+  const EncodedMap map = encoder.take();
+  EXPECT_EQ(map.row_bytes.size(), 2U);
+  EXPECT_TRUE(map.bytes == encode(identity_map(4, 2)).bytes);
+  EXPECT_THROW(MapEncoder(0, 2, {}), std::invalid_argument);
+}
+
 }  // namespace
 }  // namespace parallax

@@ -122,6 +122,33 @@ TEST(Window, APixelWithoutSourceFitsInNone) {
       << line;
 }
 
+TEST_F(MapBuilder, BandsGiveTheMapsOfTheWholeImage) {
+  std::vector<SyntheticPair> pairs(3);
+  pairs[1].distortion = {-0.05, 0.02, 0.001, -0.001, 0.001};
+  pairs[2] = test::fisheye_pair();
+  const OffsetRange range{511, 5};
+  for (const SyntheticPair& pair : pairs) {
+    const Calibration c = calibration(pair);
+    const RectificationMap whole = quantise(raw_maps(c), range);
+    ASSERT_GT(whole.height, 2 * 64) << "several bands";
+    EXPECT_TRUE(build_map(c, range).offsets == whole.offsets) << pair.text();
+    WindowSurvey banded;
+    int rows = 0;
+    for_each_band(c, [&](const RawMaps& band) {
+      EXPECT_EQ(band.first_row, rows);
+      rows += band.left_x.rows;
+      banded.add(band, {});
+    });
+    EXPECT_EQ(rows, whole.height);
+    const WindowSurvey all = survey(raw_maps(c), {});
+    EXPECT_EQ(banded.window_needed, all.window_needed);
+    EXPECT_EQ(banded.left.beyond, all.left.beyond);
+    EXPECT_EQ(banded.right.beyond, all.right.beyond);
+    EXPECT_EQ(banded.right.y, all.right.y);
+    EXPECT_EQ(banded.pixels, all.pixels);
+  }
+}
+
 TEST_F(MapBuilder, TheWindowThatTheMessageNamesIsTheSmallest) {
   SyntheticPair pair;
   pair.distortion = {-0.4, 0.1, 0, 0, 0};

@@ -76,6 +76,22 @@ TEST(Memory, ABurstTakesItsBytesAtTheBusRateRoundedUp) {
   expect_near(b.responses(), {26, 26 + 23, 49 + 11, 60 + 11});
 }
 
+TEST(Memory, WithoutDataTheTimeIsTheSame) {
+  MemoryTiming t = timing();
+  t.holds_data = false;
+  Bench b(t);
+  b.thread([&] {
+    for (const std::size_t bytes : {128u, 100u, 8u, 1u}) {
+      b[0].send(bytes == 100u ? ::tlm::TLM_WRITE_COMMAND : ::tlm::TLM_READ_COMMAND, 0, bytes);
+      b[0].wait_for_all();
+    }
+  });
+  sc_core::sc_start();
+  expect_near(b.responses(), {26, 26 + 23, 49 + 11, 60 + 11});
+  EXPECT_EQ(b.memory.statistics(0).written_bytes, 100u);
+  EXPECT_EQ(b.memory.statistics(0).read_bytes, 137u);
+}
+
 TEST(Memory, EfficiencyStretchesTheBus) {
   MemoryTiming t = timing();
   t.efficiency = 80;  // 6.4 B a cycle
