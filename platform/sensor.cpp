@@ -38,10 +38,23 @@ void Sensor::advance() {
     const Cycles free = std::max(due, last_write_ + Cycles(1));
     const Cycles room = out.writable_at();
     last_write_ = std::max(free, room);
-    if (last_write_ > due) ++late_bursts_;
+    if (last_write_ > due) note_late_burst();
     out.mark_written(last_write_, last_write_ - free);
     at_ = end;
   }
+}
+
+void Sensor::note_late_burst() {
+  for (; !late_to_come_.empty() && late_to_come_.front() <= clock_.now(); late_to_come_.pop_front()) {
+    ++late_bursts_;
+  }
+  late_to_come_.push_back(last_write_);
+}
+
+std::uint64_t Sensor::late_bursts() const {
+  std::uint64_t count = late_bursts_;
+  for (std::size_t i = 0; i < late_to_come_.size() && late_to_come_[i] <= clock_.now(); ++i) ++count;
+  return count;
 }
 
 // Whether another image is there whose time has come.

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "modules/pixel.hpp"
+#include "tlm/ring.hpp"
 #include "tlm/stream.hpp"
 #include "tlm/units.hpp"
 
@@ -40,7 +41,8 @@ class Sensor final : public sc_core::sc_module, public Actor {
   Cycles frame_time() const;
   /// Pixel clocks spent on frames, blanking included, until now.
   Cycles busy() const;
-  std::uint64_t late_bursts() const { return late_bursts_; }
+  /// Until now.
+  std::uint64_t late_bursts() const;
 
  private:
   struct Exposed {
@@ -50,6 +52,7 @@ class Sensor final : public sc_core::sc_module, public Actor {
 
   void advance() override;
   bool begin_image();
+  void note_late_burst();
   std::int64_t image_bytes() const { return std::int64_t{config_.width} * config_.height; }
 
   const SensorConfig config_;
@@ -63,6 +66,7 @@ class Sensor final : public sc_core::sc_module, public Actor {
   Cycles busy_;
   Cycles last_write_{-1};
   std::uint64_t late_bursts_ = 0;
+  Ring<Cycles> late_to_come_;  // dates of further ones
 };
 
 }  // namespace parallax

@@ -51,8 +51,9 @@ void Memory::end_of_elaboration() {
 }
 
 const MemoryPortStatistics& Memory::statistics(std::size_t port) const {
-  serve_until(present(), false);
-  count_answers(arbiter_.ports[port]);
+  const Picoseconds now = present();
+  serve_until(now, false);
+  count_answers(arbiter_.ports[port], now);
   return arbiter_.ports[port].statistics;
 }
 
@@ -91,6 +92,7 @@ double Memory::usable_bandwidth() const {
   if (port.queue.size() >= timing_.queue_depth) {
     port.refused = &payload;
     port.refused_arrival = now + date(delay);
+    port.refused_transfer = transfer_time(payload);
     ++arbiter_.refused;
     wake_in_time();
     return ::tlm::TLM_ACCEPTED;
@@ -145,10 +147,13 @@ bool Memory::access(::tlm::tlm_generic_payload& payload) const {
   return true;
 }
 
-Cycles Memory::transfer_time(const ::tlm::tlm_generic_payload& payload) const {
+Cycles Memory::transfer_time(const ::tlm::tlm_generic_payload& payload) {
   const std::int64_t bytes = payload.get_data_length();
+  if (bytes == 0) return Cycles(1);  // not allowed, but even this is over some time after its arrival
   const std::int64_t per_cycle = timing_.bytes_per_cycle.count() * timing_.efficiency;
-  return Cycles(std::max<std::int64_t>(1, (bytes * 100 + per_cycle - 1) / per_cycle));
+  if (bytes != last_length_) last_transfer_ = Cycles((bytes * 100 + per_cycle - 1) / per_cycle);
+  last_length_ = bytes;
+  return last_transfer_;
 }
 
 // When the bus is free and a request is there; needs one that waits.
@@ -195,7 +200,7 @@ void Memory::serve(std::size_t id, Cycles edge) const {
   if (port.refused != nullptr) {
     ::tlm::tlm_generic_payload& taken = *std::exchange(port.refused, nullptr);
     --arbiter_.refused;
-    port.queue.push_back({&taken, port.refused_arrival, transfer_time(taken)});
+    port.queue.push_back({&taken, port.refused_arrival, port.refused_transfer});
     arbiter_.taken.push_back({id, &taken, port.refused_arrival});
   }
   arbiter_.arrivals[id] = port.queue.empty() ? kNever : port.queue.front().arrival;
@@ -207,7 +212,7 @@ void Memory::run() {
   running_ = true;
   wake_date_ = kNever;
   serve_until(now, std::exchange(inclusive_, false));
-  end_requests();
+  end_requests(now);
   while (!arbiter_.answers.empty()) {
     const Answer answer = arbiter_.answers.front();
     arbiter_.answers.pop_front();
@@ -216,7 +221,7 @@ void Memory::run() {
       port.held.push_back(answer);
       ++held_;
     } else {
-      begin_response(answer);
+      begin_response(answer, now);
     }
   }
   for (std::size_t id = 0; held_ != 0 && id < arbiter_.ports.size(); ++id) {
@@ -225,16 +230,15 @@ void Memory::run() {
       const Answer answer = port.held.front();
       port.held.pop_front();
       --held_;
-      begin_response(answer);
+      begin_response(answer, now);
     }
   }
   running_ = false;
   wake_in_time();
 }
 
-void Memory::end_requests() {
+void Memory::end_requests(Picoseconds now) {
   if (arbiter_.taken.empty()) return;
-  const Picoseconds now = present();
   for (const Taken& taken : std::exchange(arbiter_.taken, {})) {
     ::tlm::tlm_phase phase = ::tlm::END_REQ;
     sc_core::sc_time delay = time(std::max(now, taken.arrival) - now);
@@ -242,11 +246,10 @@ void Memory::end_requests() {
   }
 }
 
-void Memory::begin_response(const Answer& answer) {
+void Memory::begin_response(const Answer& answer, Picoseconds now) {
   Port& port = arbiter_.ports[answer.port];
-  const Picoseconds now = present();
   const Picoseconds at = std::max({now, answer.ready, port.answered_until});
-  count_answers(port);
+  count_answers(port, now);
   port.told.push_back({at, at - answer.request.arrival});
   sc_core::sc_time delay = time(at - now);
   if (answer.request.blocking != nullptr) {
@@ -263,8 +266,7 @@ void Memory::begin_response(const Answer& answer) {
 }
 
 // Counts the answers that were told ahead of their dates and are there now.
-void Memory::count_answers(Port& port) const {
-  const Picoseconds now = present();
+void Memory::count_answers(Port& port, Picoseconds now) const {
   for (; !port.told.empty() && port.told.front().date <= now; port.told.pop_front()) {
     const sc_core::sc_time latency = time(port.told.front().latency);
     port.statistics.latency_sum += latency;

@@ -89,6 +89,7 @@ class Memory final : public sc_core::sc_module {
     Ring<Request> queue;
     ::tlm::tlm_generic_payload* refused = nullptr;  // BEGIN_REQ not answered with END_REQ yet
     Picoseconds refused_arrival;
+    Cycles refused_transfer;
     bool answering = false;      // BEGIN_RESP sent, END_RESP not seen
     Picoseconds answered_until;  // END_RESP's own time; the next BEGIN_RESP is not earlier
     Ring<Answer> held;           // wait for the END_RESP
@@ -121,16 +122,16 @@ class Memory final : public sc_core::sc_module {
 
   void run();
   void enqueue(std::size_t id, const Request& request);
-  void end_requests();
-  void begin_response(const Answer& answer);
-  void count_answers(Port& port) const;
+  void end_requests(Picoseconds now);
+  void begin_response(const Answer& answer, Picoseconds now);
+  void count_answers(Port& port, Picoseconds now) const;
   void wake_in_time();
   void wake_at(Picoseconds date);
   void serve_until(Picoseconds date, bool inclusive) const;
   void serve(std::size_t id, Cycles edge) const;
   Cycles next_edge() const;
   std::size_t choose(Picoseconds date) const;
-  Cycles transfer_time(const ::tlm::tlm_generic_payload& payload) const;
+  Cycles transfer_time(const ::tlm::tlm_generic_payload& payload);
   bool access(::tlm::tlm_generic_payload& payload) const;
 
   struct Free {
@@ -144,6 +145,8 @@ class Memory final : public sc_core::sc_module {
   sc_core::sc_event wake_;
   Picoseconds wake_date_ = kNever;  // it has been notified for
   std::size_t held_ = 0;  // answers that wait for an END_RESP, on all ports
+  std::int64_t last_length_ = 0;  // bytes: nearly all requests have the length of the one before
+  Cycles last_transfer_;
   bool running_ = false;
   bool inclusive_ = false;  // the next run decides about the present edge, too
 };

@@ -68,9 +68,11 @@ class ProtocolInitiator final : public sc_core::sc_module {
   ::tlm::tlm_generic_payload& take(::tlm::tlm_command command, std::uint64_t address, std::size_t length) {
     return pool_.take(command, address, length);
   }
-  /// For a thread: returns when everything sent is answered.
+  /// For a thread: returns when everything sent is answered, at the date of the last answer if that was given ahead.
   void wait_for_all() {
     while (responses.size() < times.size() || responding_ != nullptr) sc_core::wait(moved_);
+    const sc_core::sc_time now = sc_core::sc_time_stamp();
+    if (latest_response_ > now) sc_core::wait(latest_response_ - now);
   }
 
  private:
@@ -98,6 +100,7 @@ class ProtocolInitiator final : public sc_core::sc_module {
     Times& t = times[index_[&payload]];
     EXPECT_GE(now, t.end_request);
     t.begin_response = now;
+    latest_response_ = now;
     t.status = payload.get_response_status();
     t.data.assign(payload.get_data_ptr(), payload.get_data_ptr() + payload.get_data_length());
     responses.push_back(index_[&payload]);
@@ -136,6 +139,7 @@ class ProtocolInitiator final : public sc_core::sc_module {
   ::tlm::tlm_generic_payload* requesting_ = nullptr;
   ::tlm::tlm_generic_payload* responding_ = nullptr;
   sc_core::sc_time free_from_;
+  sc_core::sc_time latest_response_;
   sc_core::sc_event moved_;
   sc_core::sc_event end_response_;
 };
