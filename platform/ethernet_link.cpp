@@ -107,9 +107,9 @@ void EthernetLink::finish_frame() {
 }
 
 std::uint64_t EthernetLink::packets() const {
-  const Cycles now = clock_.now();
-  return past_packets_ + static_cast<std::uint64_t>(std::count_if(
-                             packets_.begin(), packets_.end(), [&](const Packet& p) { return p.begin <= now; }));
+  const sc_core::sc_time& now = sc_core::sc_time_stamp();
+  const auto begun = [&](const Packet& packet) { return clock_.time_of(packet.begin) <= now; };
+  return past_packets_ + static_cast<std::uint64_t>(std::count_if(packets_.begin(), packets_.end(), begun));
 }
 
 Cycles EthernetLink::wire_busy() const { return past_wire_ + passed(&Packet::wire); }

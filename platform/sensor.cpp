@@ -45,15 +45,15 @@ void Sensor::advance() {
 }
 
 void Sensor::note_late_burst() {
-  for (; !late_to_come_.empty() && late_to_come_.front() <= clock_.now(); late_to_come_.pop_front()) {
-    ++late_bursts_;
-  }
+  for (; !late_to_come_.empty() && has_come(late_to_come_.front()); late_to_come_.pop_front()) ++late_bursts_;
   late_to_come_.push_back(last_write_);
 }
 
+bool Sensor::has_come(Cycles cycle) const { return clock_.time_of(cycle) <= sc_core::sc_time_stamp(); }
+
 std::uint64_t Sensor::late_bursts() const {
   std::uint64_t count = late_bursts_;
-  for (std::size_t i = 0; i < late_to_come_.size() && late_to_come_[i] <= clock_.now(); ++i) ++count;
+  for (std::size_t i = 0; i < late_to_come_.size() && has_come(late_to_come_[i]); ++i) ++count;
   return count;
 }
 

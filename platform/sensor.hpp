@@ -53,6 +53,7 @@ class Sensor final : public sc_core::sc_module, public Actor {
   void advance() override;
   bool begin_image();
   void note_late_burst();
+  bool has_come(Cycles cycle) const;
   std::int64_t image_bytes() const { return std::int64_t{config_.width} * config_.height; }
 
   const SensorConfig config_;
