@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numeric>
 
 #include "tests/timing/date_log.hpp"
@@ -132,6 +133,38 @@ TEST(DmaReader, OneOutstandingRequestWaitsOutEachLatency) {
   EXPECT_EQ(b.dates.written, Dates({5, 10, 15, 20}));
 }
 
+TEST(DmaReader, IsOccupiedWhileRequestsAreUnderWay) {
+  ReaderBench<Memory> b(engine(16, 4, 8), 6, 0, plain_memory(), memory_clock());
+  b.reader.start({0, {96}, false, nullptr});
+  const std::vector<std::int64_t> requested{0, 1, 2, 3, 5, 7};
+  const std::vector<std::int64_t> answered{5, 7, 9, 11, 13, 15};
+  Thread sampling("sampling", [&] {
+    for (std::int64_t half = 1; half < 40; ++half) {
+      sc_core::wait(sc_core::sc_time(5, sc_core::SC_NS));
+      std::int64_t halves = 0;
+      for (std::size_t i = 0; i < requested.size(); ++i) {
+        halves += std::clamp(half, 2 * requested[i], 2 * answered[i]) - 2 * requested[i];
+      }
+      EXPECT_EQ(b.reader.master.occupied(), sc_core::sc_time(5.0 * static_cast<double>(halves), sc_core::SC_NS))
+          << half << " half cycles";
+    }
+  });
+  sc_core::sc_start();
+}
+
+TEST(DmaReader, EachJobIsDoneWithItsLastAnswer) {
+  ReaderBench<Memory> b(engine(16, 4, 8), 4, 0, plain_memory(), memory_clock());
+  Dates done;
+  const auto note = [&] { done.push_back(b.clock.now().count()); };
+  b.reader.start({0, {16}, false, note});
+  b.reader.start({0, {32}, false, note});
+  b.reader.start({0, {}, false, note});
+  b.reader.start({0, {16}, false, note});
+  sc_core::sc_start();
+  EXPECT_EQ(b.dates.written, Dates({5, 7, 9, 11}));
+  EXPECT_EQ(done, Dates({5, 9, 9, 11}));
+}
+
 TEST(DmaReader, AShortLastBurstTakesLessTime) {
   ReaderBench<Memory> b(engine(16, 1, 8), 2, 0, plain_memory(), memory_clock());
   b.reader.start({0, {17}, false, nullptr});
@@ -155,6 +188,14 @@ TEST(DmaReader, AsksForTheNextBurstWhenAPlaceIsFreed) {
   sc_core::sc_start();
   // Read in 6, free and requested in 7, 5 cycles later there.
   EXPECT_EQ(b.dates.written, Dates({5, 12, 19}));
+}
+
+TEST(DmaReader, CountsTheCyclesThatLackOfRoomCosts) {
+  ReaderBench<Memory> b(engine(16, 4, 1), 3, 0, plain_memory(), memory_clock());
+  b.reader.start({0, {48}, false, nullptr});
+  sc_core::sc_start();
+  // It could ask again in 1 and in 8; there is room in 7 and in 14.
+  EXPECT_EQ(b.stream.statistics().blocked_on_full.count(), 6 + 6);
 }
 
 TEST(DmaReader, BringsTheBytesOfSeveralJobs) {
@@ -265,6 +306,14 @@ TEST(DmaWriter, ABurstLeavesTheFifoWhenTheMemoryTakesIt) {
   EXPECT_EQ(b.dates.read, Dates({1, 2, 5, 9}));
   EXPECT_EQ(done.count(), 13 + 4 + 3);
   EXPECT_EQ(b.memory.statistics(0).written_bytes, 128u);
+}
+
+TEST(DmaWriter, CountsTheCyclesThatLackOfATokenCosts) {
+  WriterBench<Memory> b(engine(32, 8, 8), {}, 2, plain_memory(), memory_clock());
+  b.writer.start({0, {64}, false, nullptr});
+  sc_core::sc_start();
+  EXPECT_EQ(b.dates.read, Dates({1, 2}));
+  EXPECT_EQ(b.stream.statistics().starved_on_empty.count(), 1);
 }
 
 TEST(DmaWriter, PutsTheBytesOfSeveralJobsInPlace) {

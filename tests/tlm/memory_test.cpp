@@ -4,12 +4,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <memory>
 #include <random>
 
 #include "tests/timing/in_child.hpp"
 #include "tests/tlm/protocol_initiator.hpp"
 #include "tests/tlm/thread.hpp"
+#include "tlm/traffic_only.hpp"
 
 namespace parallax::test {
 namespace {
@@ -152,6 +154,74 @@ TEST(Memory, FixedPriorityServesTheFirstPortFirst) {
   expect_near(b.responses(0), {18, 26});
   expect_near(b.responses(1), {34, 42});
   expect_near(b.responses(2), {50, 58});
+}
+
+// The ports send at the same time, at an edge, but run by the kernel in any order.
+TEST(Memory, WhoIsServedFirstDoesNotDependOnDeltaCycles) {
+  for (const std::uint32_t queue_depth : {4u, 1u}) {
+    std::string expected;
+    for (std::uint32_t seed = 0; seed < 24; ++seed) {
+      const std::string text = in_child([&] {
+        MemoryTiming t = timing();
+        t.queue_depth = queue_depth;
+        Bench b(t, 3);
+        std::mt19937 random(seed);
+        for (std::size_t port = 0; port < 3; ++port) {
+          const auto deltas = static_cast<std::uint32_t>(queue_depth == 1 ? seed % 2 : random() % 5);
+          b.thread([&b, port, deltas] {
+            for (int i = 0; i < 3; ++i) {
+              sc_core::wait(ns(40 * (i + 1)) - sc_core::sc_time_stamp());
+              for (std::uint32_t delta = 0; delta < deltas; ++delta) sc_core::wait(sc_core::SC_ZERO_TIME);
+              b[port].send(::tlm::TLM_READ_COMMAND, 0, 48);
+              b[port].send(::tlm::TLM_READ_COMMAND, 0, 48);
+            }
+          });
+        }
+        sc_core::sc_start();
+        std::string all;
+        for (std::size_t port = 0; port < 3; ++port) {
+          for (const double time : b.responses(port)) all += std::to_string(time) + " ";
+        }
+        return all;
+      });
+      if (seed == 0) expected = text;
+      EXPECT_EQ(text, expected) << "queue depth " << queue_depth << ", seed " << seed;
+    }
+    EXPECT_NE(expected.find("56.000000"), std::string::npos);  // the first port's first: 40 + 6 + 10
+  }
+}
+
+TEST(Memory, AnswersThatAreKnownAreToldTogetherWithTheirDates) {
+  Bench b(timing(), 3);
+  for (std::size_t port = 0; port < 3; ++port) {
+    b.thread([&b, port] { b[port].send(::tlm::TLM_READ_COMMAND, 0, 64, ns(port)); });
+  }
+  sc_core::sc_start();
+  for (std::size_t port = 0; port < 3; ++port) {
+    expect_near(b.responses(port), {18.0 + 8 * static_cast<double>(port)});
+    EXPECT_EQ(b[port].times[0].told, ns(18));
+  }
+}
+
+TEST(Memory, CountsWhatHasHappenedAndNoMore) {
+  Bench b(timing(), 2);
+  for (std::size_t port = 0; port < 2; ++port) {
+    b.thread([&b, port] { b[port].send(::tlm::TLM_READ_COMMAND, 0, 64); });
+  }
+  // Served at 0 and 8, for 8 each; answered at 18 and 26.
+  b.thread([&b] {
+    for (int t = 0; t < 30; ++t) {
+      sc_core::wait(ns(t + 0.5) - sc_core::sc_time_stamp());
+      for (int port = 0; port < 2; ++port) {
+        const auto id = static_cast<std::size_t>(port);
+        EXPECT_EQ(b.memory.statistics(id).requests, t >= 8 * port ? 1u : 0u) << t;
+        EXPECT_EQ(b.memory.statistics(id).read_bytes, t >= 8 * port ? 64u : 0u) << t;
+        EXPECT_EQ(b.memory.bus_taken(id).count(), std::clamp(t + 1 - 8 * port, 0, 8)) << t;
+        EXPECT_EQ(b.memory.statistics(id).latency_sum, ns(t >= 18 + 8 * port ? 18 + 8 * port : 0)) << t;
+      }
+    }
+  });
+  sc_core::sc_start();
 }
 
 TEST(Memory, AFullQueueHoldsBackTheEndOfTheRequest) {
@@ -309,6 +379,26 @@ TEST(Memory, DebugAccessTakesNoTime) {
   EXPECT_EQ(back, data);
   EXPECT_EQ(sc_core::sc_time_stamp(), sc_core::SC_ZERO_TIME);
   EXPECT_EQ(b.memory.statistics(0).requests, 0u);
+}
+
+TEST(Memory, LeavesOutBytesThatMeanNothing) {
+  Bench b;
+  TrafficOnly traffic_only;
+  b.thread([&] {
+    b[0].send(::tlm::TLM_WRITE_COMMAND, 0x40, 8);
+    ::tlm::tlm_generic_payload& write = b[0].take(::tlm::TLM_WRITE_COMMAND, 0x40, 8);
+    write.set_extension(&traffic_only);
+    b[0].send(write);
+    b[0].send(::tlm::TLM_READ_COMMAND, 0x40, 8);
+    ::tlm::tlm_generic_payload& outside = b[0].take(::tlm::TLM_WRITE_COMMAND, 1 << 16, 8);
+    outside.set_extension(&traffic_only);
+    b[0].send(outside);
+  });
+  sc_core::sc_start();
+  expect_near(b.responses(), {11, 12, 13, 14});
+  EXPECT_EQ(b[0].times[2].data[0], 0x40);
+  EXPECT_EQ(b[0].times[1].status, ::tlm::TLM_OK_RESPONSE);
+  EXPECT_EQ(b[0].times[3].status, ::tlm::TLM_ADDRESS_ERROR_RESPONSE);
 }
 
 TEST(Memory, RefusesWhatItCannotDo) {

@@ -39,5 +39,16 @@ TEST(PayloadPool, AReleasedPayloadIsUsedAgainAndForgetsItsPast) {
   third.release();
 }
 
+TEST(PayloadPool, APayloadWithoutDataSaysSoUntilItIsUsedForSome) {
+  PayloadPool pool(64);
+  ::tlm::tlm_generic_payload& traffic = pool.take(::tlm::TLM_WRITE_COMMAND, 0, 64, false);
+  EXPECT_NE(traffic.get_extension<TrafficOnly>(), nullptr);
+  traffic.release();
+  ::tlm::tlm_generic_payload& data = pool.take(::tlm::TLM_WRITE_COMMAND, 0, 64);
+  EXPECT_EQ(&data, &traffic);
+  EXPECT_EQ(data.get_extension<TrafficOnly>(), nullptr);
+  data.release();
+}
+
 }  // namespace
 }  // namespace parallax

@@ -23,6 +23,7 @@ class ProtocolInitiator final : public sc_core::sc_module {
   enum class Answer { kCompleted, kUpdated, kLater };
   struct Times {
     sc_core::sc_time begin_request, end_request, begin_response;
+    sc_core::sc_time told;  ///< when BEGIN_RESP was called, its date perhaps in the future
     ::tlm::tlm_response_status status = ::tlm::TLM_INCOMPLETE_RESPONSE;
     std::vector<std::uint8_t> data;
   };
@@ -100,6 +101,7 @@ class ProtocolInitiator final : public sc_core::sc_module {
     Times& t = times[index_[&payload]];
     EXPECT_GE(now, t.end_request);
     t.begin_response = now;
+    t.told = sc_core::sc_time_stamp();
     latest_response_ = now;
     t.status = payload.get_response_status();
     t.data.assign(payload.get_data_ptr(), payload.get_data_ptr() + payload.get_data_length());

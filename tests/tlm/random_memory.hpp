@@ -15,7 +15,7 @@ namespace parallax::test {
 
 /// Another memory, as a user might bring one: answers in order after random times, in every way that the base
 /// protocol allows: END_REQ at once, later, dated ahead, or left out; BEGIN_RESP on time or dated ahead; the
-/// whole transaction in one call.
+/// whole transaction in one call. With an even seed it is sloppy and does not look at the delay of a request.
 class RandomMemory final : public sc_core::sc_module {
  public:
   tlm_utils::simple_target_socket<RandomMemory> socket{"socket"};
@@ -25,7 +25,7 @@ class RandomMemory final : public sc_core::sc_module {
 
   /// `slowest`: longest time of each step, in ns.
   RandomMemory(const sc_core::sc_module_name& name, std::size_t size, std::uint32_t seed, int slowest)
-      : sc_module(name), bytes(size), random_(seed), slowest_(slowest) {
+      : sc_module(name), bytes(size), random_(seed), slowest_(slowest), sloppy_(seed % 2 == 0) {
     socket.register_nb_transport_fw(this, &RandomMemory::forward);
     socket.register_transport_dbg(this, &RandomMemory::debug);
     SC_HAS_PROCESS(RandomMemory);
@@ -52,6 +52,7 @@ class RandomMemory final : public sc_core::sc_module {
       return ::tlm::TLM_COMPLETED;
     }
     requests.push_back(sc_core::sc_time_stamp() + delay);
+    const sc_core::sc_time arrival = sloppy_ ? sc_core::sc_time_stamp() : requests.back();
     access(payload);
     if (in_flight_ == 0 && random_() % 8 == 0) {
       most_in_flight = std::max<std::size_t>(most_in_flight, 1);
@@ -60,7 +61,7 @@ class RandomMemory final : public sc_core::sc_module {
     }
     payload.acquire();
     most_in_flight = std::max(most_in_flight, ++in_flight_);
-    sc_core::sc_time time = std::max(last_, sc_core::sc_time_stamp() + some_time());
+    sc_core::sc_time time = std::max(last_, arrival + some_time());
     const auto way = random_() % 3;
     if (way == 1) events_.push_back({time, &payload, ::tlm::END_REQ});
     last_ = time + some_time();
@@ -116,6 +117,7 @@ class RandomMemory final : public sc_core::sc_module {
 
   std::mt19937 random_;
   int slowest_;
+  bool sloppy_;
   std::deque<Event> events_;
   std::size_t in_flight_ = 0;
   bool responding_ = false;
