@@ -89,12 +89,17 @@ Pipeline::Pipeline(const sc_core::sc_module_name& name, const MachineConfig& con
   const std::int64_t offset_bits = 4 * config.rectification.range.offset_bits();
 
   // Paths that fork and meet again: the shorter one must hold what the longer one holds back, that is its
-  // look-ahead in tokens, and what passes, at one token a cycle, during its pipeline latency, in its FIFOs, and until
-  // the place in the shorter one's FIFO is free again.
-  const auto through = [&](const char* fifo) { return std::uint64_t{config.streams.offsets(fifo).write_to_read}; };
-  const auto back = [&](const char* fifo) { return std::uint64_t{config.streams.offsets(fifo).read_to_write}; };
-  // For a long path: a token's way through its FIFOs and the place's way back in `shorter`; or, when that is more, the
-  // places' ways back on the path itself as well, so that both paths hold about as much when it is held up.
+  // look-ahead in tokens, and what passes, at one token a cycle, during its pipeline latency, in its FIFOs,
+  // and until the place in the shorter one's FIFO is free again.
+  const auto through = [&](const char* fifo) {
+    return std::uint64_t{config.streams.offsets(fifo).write_to_read};
+  };
+  const auto back = [&](const char* fifo) {
+    return std::uint64_t{config.streams.offsets(fifo).read_to_write};
+  };
+  // For a long path: a token's way through its FIFOs and the place's way back in `shorter`; or, when that is
+  // more, the places' ways back on the path itself as well, so that both paths hold about as much when it is
+  // held up.
   const auto path = [&](const char* shorter, std::initializer_list<const char*> fifos) {
     std::uint64_t forth = 0;
     std::uint64_t returns = 0;
@@ -122,13 +127,15 @@ Pipeline::Pipeline(const sc_core::sc_module_name& name, const MachineConfig& con
       groups;
   // The texture filter looks ahead too, on the image alone: what it is ahead of the disparities waits there.
   const std::uint64_t image_ahead = texture_.look_ahead();
-  const std::uint64_t to_disparity = image_ahead > disparities_ahead
-                                         ? image_ahead - disparities_ahead + through("left_texture") + back("consistent")
-                                         : 0;
+  const std::uint64_t to_disparity =
+      image_ahead > disparities_ahead
+          ? image_ahead - disparities_ahead + through("left_texture") + back("consistent")
+          : 0;
   const std::uint64_t to_output =
-      std::max(to_texture, image_ahead + through("left_texture") + back("left_texture")) + speckle_.look_ahead() +
-      gap_interpolation_.look_ahead() + noise_reduction_.look_ahead() + time.texture.latency +
-      time.speckle.latency + time.gap_interpolation.latency + time.noise_reduction.latency +
+      std::max(to_texture, image_ahead + through("left_texture") + back("left_texture")) +
+      speckle_.look_ahead() + gap_interpolation_.look_ahead() + noise_reduction_.look_ahead() +
+      time.texture.latency + time.speckle.latency + time.gap_interpolation.latency +
+      time.noise_reduction.latency +
       path("left_output", {"textured", "despeckled", "interpolated", "smoothed"});
 
   const auto connect = [](auto& out, auto& in, auto& between) {

@@ -55,8 +55,8 @@ class StreamListener {
 ///
 /// Contract: token i cannot be read before `write_to_read` reader edges after the edge that wrote it, nor
 /// written before `read_to_write` writer edges after the edge that read token i - depth; both follow from the
-/// kind of FIFO (fifo_kind.hpp). One token a cycle each way. Dates are handed in once, in order, as soon as they are known, which may be long before kernel
-/// time gets there.
+/// kind of FIFO (fifo_kind.hpp). One token a cycle each way. Dates are handed in once, in order, as soon as they
+/// are known, which may be long before kernel time gets there.
 class StreamBase : public sc_core::sc_prim_channel, public virtual sc_core::sc_interface {
  public:
   static constexpr std::uint32_t kLargestDepth = 1u << 24;  // tokens

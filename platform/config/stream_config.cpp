@@ -47,10 +47,11 @@ void describe(Schema& schema, StreamConfig& config) {
                               FifoKind::kAsynchronous}) {
     kinds.emplace_back(name_of(kind), kind);
   }
-  schema.choice("streams.default_kind", config.default_kind, kinds,
-                "Kind of FIFO of every stream whose own kind is default: which cycle after the write it can be read "
-                "in, and which after the read its place can be written in.",
-                chosen("flags in registers close timing at any depth"));
+  schema.choice(
+      "streams.default_kind", config.default_kind, kinds,
+      "Kind of FIFO of every stream whose own kind is default: which cycle after the write it can be read "
+      "in, and which after the read its place can be written in.",
+      chosen("flags in registers close timing at any depth"));
   schema.integer("streams.synchroniser_stages", config.synchroniser_stages, {1, 8}, "registers",
                  "Synchroniser registers that each pointer of an asynchronous FIFO passes.",
                  chosen("two are usual"));
@@ -65,7 +66,8 @@ void describe(Schema& schema, StreamConfig& config) {
   own_kinds.insert(own_kinds.end(), kinds.begin(), kinds.end());
   for (auto& [name, kind] : config.kinds) {
     schema.choice("streams." + name + ".kind", kind, own_kinds,
-                  "Kind of FIFO of the stream " + name + ". default is streams.default_kind.", chosen("the default"));
+                  "Kind of FIFO of the stream " + name + ". default is streams.default_kind.",
+                  chosen("the default"));
   }
 }
 

@@ -32,9 +32,10 @@ struct StreamConfig {
   std::uint32_t default_depth = 16;  ///< of a stream whose own depth is 0; 1 to 65536; own choice
   std::vector<StreamDepth> depths;   ///< one per stream, upstream to downstream
 
-  FifoKind default_kind = FifoKind::kRegistered;  ///< of a stream without a kind of its own; not kFree; own choice
-  std::vector<StreamKind> kinds;                  ///< one per stream, upstream to downstream
-  std::uint32_t synchroniser_stages = 2;          ///< of every asynchronous FIFO; 1 to 8; own choice
+  FifoKind default_kind =
+      FifoKind::kRegistered;              ///< of a stream without a kind of its own; not kFree; own choice
+  std::vector<StreamKind> kinds;          ///< one per stream, upstream to downstream
+  std::uint32_t synchroniser_stages = 2;  ///< of every asynchronous FIFO; 1 to 8; own choice
 
   explicit StreamConfig(const std::vector<std::string>& names = pipeline_stream_names());
 

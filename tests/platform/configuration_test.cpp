@@ -96,6 +96,36 @@ TEST(Configuration, AssignmentsApplyInOrder) {
   EXPECT_EQ(machine.timing.census.latency, 5U);
 }
 
+TEST(Configuration, EveryStreamHasAKindOfFifo) {
+  const StreamConfig streams =
+      load({"streams.default_kind=block_ram", "streams.unique.kind=first_word_fall_through",
+            "streams.winners.kind=asynchronous", "streams.synchroniser_stages=4"})
+          .machine.streams;
+  EXPECT_EQ(streams.kind("smoothed"), FifoKind::kBlockRam);
+  EXPECT_EQ(streams.kind("unique"), FifoKind::kFirstWordFallThrough);
+  EXPECT_EQ(streams.offsets("winners").write_to_read, 5U);
+  for (const std::string& name : pipeline_stream_names()) {
+    EXPECT_EQ(load({}).machine.streams.kind(name), FifoKind::kRegistered) << name;
+  }
+  EXPECT_EQ(load({"streams.default_kind=block_ram", "streams.unique.kind=registered",
+                  "streams.unique.kind=default"})
+                .machine.streams.kind("unique"),
+            FifoKind::kBlockRam);
+}
+
+TEST(Configuration, RefusesAKindOfFifoThatThereIsNot) {
+  EXPECT_EQ(error({"streams.default_kind=sram"}),
+            "--set streams.default_kind=sram: streams.default_kind = \"sram\": must be one of registered, "
+            "first_word_fall_through, block_ram, asynchronous");
+  EXPECT_EQ(
+      error({"streams.unique.kind=free"}),
+      "--set streams.unique.kind=free: streams.unique.kind = \"free\": must be one of default, registered, "
+      "first_word_fall_through, block_ram, asynchronous");
+  EXPECT_EQ(
+      error({"streams.synchroniser_stages=0"}),
+      "--set streams.synchroniser_stages=0: streams.synchroniser_stages = 0: must be an integer from 1 to 8");
+}
+
 TEST(Configuration, RefusesAssignmentsByName) {
   EXPECT_EQ(error({"matching.p3=1"}),
             "--set matching.p3=1: unknown key matching.p3; the nearest is matching.p1");
@@ -171,6 +201,19 @@ TEST(StreamConfig, AutomaticDepthsFollowWhatIsNeeded) {
   EXPECT_EQ(streams.resolve("a", 1000), 1000U);
   EXPECT_EQ(streams.resolve("b", 1000), 4U);
   EXPECT_THROW(streams.resolve("c", 0), std::logic_error);
+}
+
+TEST(StreamConfig, AKindOfItsOwnWinsOverTheDefault) {
+  StreamConfig streams({"a", "b"});
+  EXPECT_EQ(streams.kind("a"), FifoKind::kRegistered);
+  streams.default_kind = FifoKind::kAsynchronous;
+  streams.synchroniser_stages = 3;
+  streams.kinds[1].kind = FifoKind::kBlockRam;
+  EXPECT_EQ(streams.kind("a"), FifoKind::kAsynchronous);
+  EXPECT_EQ(streams.offsets("a").read_to_write, 4U);
+  EXPECT_EQ(streams.kind("b"), FifoKind::kBlockRam);
+  EXPECT_EQ(streams.offsets("b").write_to_read, 2U);
+  EXPECT_THROW(streams.kind("c"), std::logic_error);
 }
 
 }  // namespace

@@ -22,7 +22,9 @@ struct Channel {
       : writer_clock("writer", Hertz(writer_hz)),
         reader_clock("reader", Hertz(reader_hz)),
         dataflow("dataflow"),
-        stream("stream", dataflow, writer_clock, reader_clock, fifo),
+        stream("stream", dataflow, writer_clock,
+               writer_hz == reader_hz && fifo.kind != FifoKind::kAsynchronous ? writer_clock : reader_clock,
+               fifo),
         log(dates),
         writing("writing",
                 [this, from = std::move(write_from)] {
@@ -51,6 +53,14 @@ struct Channel {
 
 FifoConfig fifo(std::uint32_t depth, std::uint32_t write_to_read = 1, std::uint32_t read_to_write = 1) {
   return {depth, Bits(8), write_to_read, read_to_write};
+}
+
+FifoConfig of_kind(FifoKind kind, std::uint32_t depth, std::uint32_t synchroniser_stages = 2) {
+  FifoConfig config;
+  config.depth = depth;
+  config.kind = kind;
+  config.synchroniser_stages = synchroniser_stages;
+  return config;
 }
 
 Dates counting(std::int64_t from, std::size_t count, std::int64_t step = 1) {
@@ -134,6 +144,59 @@ TEST(Stream, CrossingWithSynchroniserStages) {
   // 60 ns -> edge 5 at 66.7 ns, + 2 = 7 at 93.3 ns; -> edge 10, + 1 = 11 at 110 ns; -> edge 9, + 2 = 11.
   EXPECT_EQ(c.dates.written, Dates({0, 6, 11}));
   EXPECT_EQ(c.dates.read, Dates({3, 7, 11}));
+}
+
+TEST(Stream, RegisteredIsOneAndOne) {
+  Channel c(of_kind(FifoKind::kRegistered, 1), {10, 0}, {0, 0});
+  EXPECT_EQ(c.dates.written, Dates({10, 12}));
+  EXPECT_EQ(c.dates.read, Dates({11, 13}));
+}
+
+TEST(Stream, AWordFallsThroughInTheSameCycle) {
+  Channel c(of_kind(FifoKind::kFirstWordFallThrough, 1), {10, 0, 0}, {0, 0, 20});
+  EXPECT_EQ(c.dates.written, Dates({10, 11, 12}));
+  EXPECT_EQ(c.dates.read, Dates({10, 11, 20}));
+  EXPECT_EQ(c.values, std::vector<int>({0, 1, 2}));
+}
+
+TEST(Stream, ABlockRamTakesTwoCyclesToRead) {
+  Channel c(of_kind(FifoKind::kBlockRam, 2), Dates(5, 0), Dates(5, 0));
+  EXPECT_EQ(c.dates.written, Dates({0, 1, 3, 4, 6}));  // the token in the output register takes a place
+  EXPECT_EQ(c.dates.read, Dates({2, 3, 5, 6, 8}));
+}
+
+TEST(Stream, APlaceCanBeWrittenInTheCycleOfItsRead) {
+  Channel c(fifo(1, 1, 0), Dates(4, 0), {0, 0, 9, 9});
+  EXPECT_EQ(c.dates.written, Dates({0, 1, 2, 9}));
+  EXPECT_EQ(c.dates.read, Dates({1, 2, 9, 10}));
+  EXPECT_EQ(c.stream.statistics().high_water, 1u);
+}
+
+TEST(Stream, BothWaysInTheSameCycle) {
+  Channel c(fifo(1, 0, 0), Dates(4, 0), {0, 0, 9, 9});
+  EXPECT_EQ(c.dates.written, Dates({0, 1, 2, 9}));
+  EXPECT_EQ(c.dates.read, Dates({0, 1, 9, 10}));
+  EXPECT_EQ(c.stream.statistics().high_water, 1u);
+}
+
+TEST(Stream, WhatLeavesNoTraceIsNotHeld) {
+  Channel c(fifo(1, 0, 0), Dates(4, 0), Dates(4, 0));
+  EXPECT_EQ(c.dates.written, c.dates.read);
+  EXPECT_EQ(c.stream.statistics().high_water, 0u);
+}
+
+// 100 MHz to 75 MHz, as above: the first reader edge after the write, and a register of two edges.
+TEST(Stream, AnAsynchronousOneSynchronisesBothPointers) {
+  Channel c(of_kind(FifoKind::kAsynchronous, 1, 2), {0, 0}, {0, 0}, 100'000'000, 75'000'000);
+  // 0 ns -> edge 1, + 2 = 3, 40 ns -> edge 5, + 2 = 7, 70 ns -> edge 6 at 80 ns, + 2 = 8.
+  EXPECT_EQ(c.dates.written, Dates({0, 7}));
+  EXPECT_EQ(c.dates.read, Dates({3, 8}));
+}
+
+TEST(Stream, ClocksOfOneFrequencyAreSynchronisedToo) {
+  Channel c(of_kind(FifoKind::kAsynchronous, 1, 2), {0, 0}, {0, 0});
+  EXPECT_EQ(c.dates.written, Dates({0, 6}));
+  EXPECT_EQ(c.dates.read, Dates({3, 9}));
 }
 
 TEST(Stream, StatisticsOfAFullStream) {
@@ -284,8 +347,50 @@ TEST(Stream, RefusesADepthOfNothing) {
 TEST(Stream, RefusesADepthBeyondAllMemory) {
   EXPECT_EQ(refusal(fifo((1u << 24) + 1)), "stream 'pixels': depth 16777217 is outside 1 to 16777216 tokens");
 }
-TEST(Stream, RefusesToBeFasterThanARegister) {
-  EXPECT_EQ(refusal(fifo(1, 0, 1)), "stream 'pixels': a registered FIFO needs at least 1 cycle each way");
+TEST(Stream, RefusesOffsetsForAKindThatHasItsOwn) {
+  FifoConfig config = of_kind(FifoKind::kBlockRam, 4);
+  config.write_to_read = 3;
+  EXPECT_EQ(refusal(config),
+            "stream 'pixels': a FIFO of kind block_ram has offsets of its own, none can be given");
+}
+TEST(Stream, RefusesSynchronisersWithoutOrWithTooManyRegisters) {
+  EXPECT_EQ(refusal(of_kind(FifoKind::kAsynchronous, 4, 0)),
+            "stream 'pixels': 0 synchroniser stages are outside 1 to 8");
+  EXPECT_EQ(refusal(of_kind(FifoKind::kAsynchronous, 4, 9)),
+            "stream 'pixels': 9 synchroniser stages are outside 1 to 8");
+  EXPECT_EQ(refusal(of_kind(FifoKind::kAsynchronous, 4, 8)), "");
+}
+
+// Equal frequencies do not make one clock of two.
+std::string refusal_between_clocks(const FifoConfig& config) {
+  const ClockDomain core("core", Hertz(1));
+  const ClockDomain link("link", Hertz(1));
+  Dataflow dataflow("dataflow");
+  try {
+    Stream<int> stream("pixels", dataflow, core, link, config);
+  } catch (const UserError& e) {
+    return e.what();
+  }
+  return "";
+}
+TEST(Stream, RefusesASynchronousKindBetweenClocks) {
+  for (const FifoKind kind : {FifoKind::kRegistered, FifoKind::kFirstWordFallThrough, FifoKind::kBlockRam}) {
+    EXPECT_EQ(refusal_between_clocks(of_kind(kind, 4)),
+              std::string("stream 'pixels': a FIFO of kind ") + name_of(kind) +
+                  " cannot stand between the clocks 'core' and 'link'; an asynchronous one can");
+  }
+}
+TEST(Stream, TakesAnAsynchronousOneAndOffsetsBetweenClocks) {
+  EXPECT_EQ(refusal_between_clocks(of_kind(FifoKind::kAsynchronous, 4)), "");
+  EXPECT_EQ(refusal_between_clocks(fifo(4, 3, 1)), "");
+}
+TEST(Stream, RefusesAnOffsetOfNothingBetweenClocksToRead) {
+  EXPECT_EQ(refusal_between_clocks(fifo(4, 0, 1)),
+            "stream 'pixels': an offset of 0 cycles cannot be kept between the clocks 'core' and 'link'");
+}
+TEST(Stream, RefusesAnOffsetOfNothingBetweenClocksToWrite) {
+  EXPECT_EQ(refusal_between_clocks(fifo(4, 1, 0)),
+            "stream 'pixels': an offset of 0 cycles cannot be kept between the clocks 'core' and 'link'");
 }
 
 }  // namespace
