@@ -2,6 +2,7 @@
 // What `parallax run` writes and prints.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>
@@ -76,10 +77,14 @@ void check_metrics(const json& tree, const std::string& path) {
       check_metrics(entry, here);
       continue;
     }
-    EXPECT_TRUE(entry["value"].is_primitive() && !entry["value"].is_null()) << here;
+    const json& value = entry["value"];
+    const bool numbers = value.is_array() && std::all_of(value.begin(), value.end(), [](const json& number) {
+                           return number.is_number();
+                         });
+    EXPECT_TRUE(numbers || (value.is_primitive() && !value.is_null())) << here;
     EXPECT_TRUE(entry["unit"].is_string()) << here;
-    EXPECT_EQ(entry["value"].is_number(), entry["unit"] != "")
-        << here << ": a number has a unit, a word none";
+    EXPECT_EQ(numbers || value.is_number(), entry["unit"] != "")
+        << here << ": a number, or a row of them, has a unit, a word none";
     ASSERT_TRUE(entry["description"].is_string()) << here;
     const std::string description = entry["description"];
     EXPECT_EQ(description.substr(description.size() - 1), ".") << here;
