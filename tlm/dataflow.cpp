@@ -14,7 +14,9 @@ namespace parallax {
 namespace {
 
 // Between two looks for periodic motion at the beginning of a run.
-constexpr std::uint64_t kLeastFirings = 100;
+constexpr std::uint64_t kLeastFirings = 200;
+// Each failure doubles the firings until the next look, so many times.
+constexpr unsigned kMostPatience = 1;
 
 }  // namespace
 
@@ -102,16 +104,17 @@ bool Dataflow::attempt_leaps() {
   bool found = false;
   for (const auto& leap : leaps_) found |= !leap->holding() && leap->attempt();
   firings_ = 0;
+  failures_ = found ? 0 : std::min(failures_ + 1, kMostPatience);
   return found;
 }
 
 void Dataflow::run() {
   notified_ = true;  // so wakes from within need no event
   // Everybody has come to rest before, which is where periodic motion shows best.
-  bool eager = leap_interval_ != 0 && firings_ >= std::min(leap_interval_, kLeastFirings) && attempt_leaps();
+  bool eager = leap_interval_ != 0 && firings_ >= std::min(leap_interval_, kLeastFirings << failures_) && attempt_leaps();
   for (;;) {
     while (step()) {
-      if (leap_interval_ != 0 && firings_ >= leap_interval_) eager |= attempt_leaps();
+      if (leap_interval_ != 0 && firings_ >= leap_interval_ << failures_) eager |= attempt_leaps();
     }
     bool moved = false;
     for (const auto& leap : leaps_) {

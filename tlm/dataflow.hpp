@@ -89,6 +89,7 @@ class Dataflow final : public sc_core::sc_module {
   std::vector<std::unique_ptr<Leap>> leaps_;  // one for each clock
   const std::uint64_t leap_interval_;
   std::uint64_t firings_ = 0;  // since the last attempt
+  unsigned failures_ = 0;      // attempts in a row that found nothing
   sc_core::sc_event work_;
   sc_core::sc_event due_;  // what a leap has not computed yet is about to come
   bool notified_ = true;  // a run is coming or under way; the first comes by itself at time 0

@@ -12,7 +12,7 @@ constexpr std::uint64_t kLargestUnit = 64;   // firings of a unit, and of a peri
 constexpr std::uint64_t kLookedAt = 64;      // firings looked at to tell what an irregular schedule does always
 constexpr std::uint64_t kScannedAhead = 8192;  // firings
 constexpr std::size_t kEventsAhead = 256;
-constexpr int kWide = 5;                       // looks for which a stage counts as moving
+constexpr int kWide = 3;                       // looks for which a stage counts as moving
 constexpr std::uint64_t kAlways = std::numeric_limits<std::uint64_t>::max();
 
 std::int64_t as_signed(std::uint64_t count) { return static_cast<std::int64_t>(count); }
@@ -129,7 +129,8 @@ bool Leap::find_unit(Member& member, PortMask& mixed_in, PortMask& mixed_out) {
   member.cursor = stage.next_;
   member.scanned = stage.statistics_.firings;
   member.ended = false;
-  member.events.clear();
+  member.events = {};
+  member.checked = 0;
   member.common = phases[stage.next_.phase];
   member.unit = 1;
   if (segment.repeat > 1) {
@@ -471,7 +472,7 @@ void Leap::scan(Member& member) {
         return;
       }
       count = 1;
-      member.events.push_back({member.scanned, consume, produce, false, false, member.cursor});
+      member.events.push_back({member.scanned, consume, produce, false, member.cursor});
     } else if (segment.phase_count == 1) {
       count += (segment.repeat - member.cursor.pass - 1) * phase.count;
       member.scanned += count;
@@ -492,13 +493,10 @@ std::uint64_t Leap::possible_firings(Member& member, bool& outside) {
   if (!write_pending(member)) return 0;
   scan(member);
   outside = !member.ended;
-  for (Event& event : member.events) {
-    if (event.checked) continue;
+  for (; member.checked < member.events.size(); ++member.checked) {
+    Event& event = member.events[member.checked];
     const Check result = check(member, event);
-    if (result == Check::kInTime) {
-      event.checked = true;
-      continue;
-    }
+    if (result == Check::kInTime) continue;
     outside = result == Check::kUnknown;
     return event.firing - now;
   }
@@ -628,6 +626,7 @@ void Leap::commit_events(Member& member, std::uint64_t until) {
   while (!member.events.empty() && member.events.front().firing < until) {
     const Event event = member.events.front();
     member.events.pop_front();
+    --member.checked;
     member.place = event.place;
     member.place_firing = event.firing;
     const Cycles start = start_of(member, event.firing);

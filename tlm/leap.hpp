@@ -2,12 +2,11 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <systemc>
 #include <utility>
 #include <vector>
 
-#include "tlm/occupancy.hpp"
+#include "tlm/ring.hpp"
 #include "tlm/stage.hpp"
 
 namespace parallax {
@@ -77,7 +76,6 @@ class Leap {
   struct Event {  // a firing that reads or writes a stream that is not core
     std::uint64_t firing;
     PortMask consume, produce;
-    bool checked;
     bool pending;  // it is not known when there is room for what it writes
     Stage::Position place;
   };
@@ -101,7 +99,8 @@ class Leap {
     Stage::Position cursor;            // of firing `scanned`
     std::uint64_t scanned = 0;
     bool ended = false;  // the pattern ends at `scanned`
-    std::deque<Event> events;
+    Ring<Event> events;
+    std::size_t checked = 0;         // of the events, from the front: known to be in time
     Stage::Position place;           // in the schedule of the last event gone over,
     std::uint64_t place_firing = 0;  // which was this firing; 0: none
     StageStatistics before;
