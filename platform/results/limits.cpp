@@ -88,11 +88,13 @@ std::vector<PartLoad> part_loads(const Machine& machine, const SteadyWindow& win
 
   const std::vector<std::uint32_t> places = machine.dma_places();
   for (std::size_t port = 0; port < last.ports.size(); ++port) {
-    const double occupied =
-        (last.ports[port].occupied - first.ports[port].occupied).to_seconds() / places[port];
+    const sc_core::sc_time occupied = last.ports[port].occupied - first.ports[port].occupied;
+    const std::uint64_t whole = places[port] * (last.time - first.time).value();
     const std::string name = Machine::port_names()[port];
     const std::string key = name.rfind("camera", 0) == 0 ? "camera" : name;
-    loads.push_back({"dma_" + name, "dma." + key + ".outstanding", occupied / elapsed, occupied / frames});
+    loads.push_back({"dma_" + name, "dma." + key + ".outstanding",
+                     static_cast<double>(occupied.value()) / static_cast<double>(whole),
+                     occupied.to_seconds() / places[port] / frames});
   }
 
   for (const StageInfo& info : machine.pipeline().stages()) {

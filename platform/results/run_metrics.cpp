@@ -83,21 +83,24 @@ void add_memory(MetricGroup& root, const Machine& machine, const SteadyWindow& w
   const double elapsed = seconds(last.time - first.time);
   const auto cycles = static_cast<double>(model.clock().cycle_at_or_after(last.time).count() -
                                           model.clock().cycle_at_or_after(first.time).count());
-  double total = 0, total_share = 0;
+  const auto share = [&](Cycles bus) {
+    return window.frames() == 0 ? 0.0 : 100.0 * (static_cast<double>(bus.count()) / cycles);
+  };
+  double total = 0;
+  Cycles total_bus;  // whole cycles, so that a bus that is always taken is so for 100 %
   for (std::size_t id = 0; id < model.ports(); ++id) {
     const MemoryPortStatistics& port = model.statistics(id);
     MetricGroup& group = memory.group(Machine::port_names()[id]);
     const auto bytes = static_cast<double>(last.ports[id].bytes - first.ports[id].bytes);
-    const auto bus = static_cast<double>((last.ports[id].bus - first.ports[id].bus).count());
+    const Cycles bus = last.ports[id].bus - first.ports[id].bus;
     const double rate = window.frames() == 0 ? 0 : bytes / elapsed;
-    const double share = window.frames() == 0 ? 0 : bus / cycles;
     total += rate;
-    total_share += share;
+    total_bus += bus;
     group.add({"bytes_per_frame", window.frames() == 0 ? 0 : bytes / static_cast<double>(window.frames()),
                "B", "Bytes through the port, a frame.", window.text});
     group.add({"bandwidth", rate / 1e6, "MB/s", "Bytes through the port by time.", window.text});
     group.add(
-        {"share", 100.0 * share, "%", "Time in which the memory's bus was taken for the port.", window.text});
+        {"share", share(bus), "%", "Time in which the memory's bus was taken for the port.", window.text});
     const double requests = std::max(1.0, static_cast<double>(port.requests));
     group.add({"latency_mean", seconds(port.latency_sum) / requests * 1e9, "ns",
                "From request to answer of a burst.", all});
@@ -109,7 +112,7 @@ void add_memory(MetricGroup& root, const Machine& machine, const SteadyWindow& w
                            "Compressed size of the rectification map by pixels of both images.", ""});
   memory.add({"bandwidth", total / 1e6, "MB/s", "Of all ports together.", window.text});
   memory.add({"usable_bandwidth", model.usable_bandwidth() / 1e6, "MB/s", "Peak times efficiency.", ""});
-  memory.add({"share", 100.0 * total_share, "%", "Time in which the memory's bus was taken.", window.text});
+  memory.add({"share", share(total_bus), "%", "Time in which the memory's bus was taken.", window.text});
 }
 
 double share_of(const std::vector<PartLoad>& loads, const std::string& part) {
