@@ -111,7 +111,8 @@ bool Dataflow::attempt_leaps() {
 void Dataflow::run() {
   notified_ = true;  // so wakes from within need no event
   // Everybody has come to rest before, which is where periodic motion shows best.
-  bool eager = leap_interval_ != 0 && firings_ >= std::min(leap_interval_, kLeastFirings << failures_) && attempt_leaps();
+  bool eager = leap_interval_ != 0 && firings_ >= std::min(leap_interval_, kLeastFirings << failures_) &&
+               attempt_leaps();
   for (;;) {
     while (step()) {
       if (leap_interval_ != 0 && firings_ >= leap_interval_ << failures_) eager |= attempt_leaps();

@@ -42,8 +42,8 @@ struct Wait {
 /// actors at the streams, and never notice: every date that they can see is in their present or future.
 class Dataflow final : public sc_core::sc_module {
  public:
-  /// Firings between two looks for periodic motion (leap.hpp): often enough to miss little, seldom enough to cost
-  /// little.
+  /// Firings between two looks for periodic motion (leap.hpp): often enough to miss little, seldom enough to
+  /// cost little.
   static constexpr std::uint64_t kLeapInterval = 600;
 
   /// `leap_interval`: 0 for no leaps: every firing is gone through one by one.
@@ -92,7 +92,7 @@ class Dataflow final : public sc_core::sc_module {
   unsigned failures_ = 0;      // attempts in a row that found nothing
   sc_core::sc_event work_;
   sc_core::sc_event due_;  // what a leap has not computed yet is about to come
-  bool notified_ = true;  // a run is coming or under way; the first comes by itself at time 0
+  bool notified_ = true;   // a run is coming or under way; the first comes by itself at time 0
 };
 
 /// The deadlock as text, one line a wait.

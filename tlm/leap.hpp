@@ -11,19 +11,20 @@
 
 namespace parallax {
 
-/// Leaps over periodic motion: when all stages of one clock repeat themselves, cycle for cycle, with a period of T
-/// cycles, n periods are added to their state at once instead of being gone through token by token.
+/// Leaps over periodic motion: when all stages of one clock repeat themselves, cycle for cycle, with a period
+/// of T cycles, n periods are added to their state at once instead of being gone through token by token.
 ///
 /// Why every date stays exact. The dates follow from a state: what a stage still has to do, the dates in its
-/// pipeline, and the dates of the tokens and free places in the streams. observe() lets every stage go through one
-/// period, firing by firing as always, and compares the state with the one before: if all that can still make a
-/// difference is the same but T cycles later, then the next period is this one, T cycles later, as long as the
-/// schedules go on alike. A date that cannot make a difference (a token that was there long before it is read, a
-/// place that was free long before it is written) may differ; it is looked at, one by one, before it is used.
+/// pipeline, and the dates of the tokens and free places in the streams. observe() lets every stage go
+/// through one period, firing by firing as always, and compares the state with the one before: if all that
+/// can still make a difference is the same but T cycles later, then the next period is this one, T cycles
+/// later, as long as the schedules go on alike. A date that cannot make a difference (a token that was there
+/// long before it is read, a place that was free long before it is written) may differ; it is looked at, one
+/// by one, before it is used.
 ///
-/// What is not periodic takes part one by one: streams from or to kernel time or another clock, and those that a
-/// schedule reads or writes at irregular firings (bursts, words of the map). Their dates must not hold anybody back;
-/// a leap ends before the firing at which one would.
+/// What is not periodic takes part one by one: streams from or to kernel time or another clock, and those
+/// that a schedule reads or writes at irregular firings (bursts, words of the map). Their dates must not hold
+/// anybody back; a leap ends before the firing at which one would.
 class Leap {
  public:
   Leap(Dataflow& dataflow, const ClockDomain& clock) : dataflow_(dataflow), clock_(clock) {}
@@ -34,11 +35,12 @@ class Leap {
   /// Takes in the stages of this clock; when all are bound.
   void build(const std::vector<Stage*>& stages);
 
-  /// Looks for periodic motion. When there is some, the stages are held: from here on they move by go_on() only.
+  /// Looks for periodic motion. When there is some, the stages are held: from here on they move by go_on()
+  /// only.
   bool attempt();
   bool holding() const { return holding_; }
-  /// Moves the held stages as far as is known, when `eager` or when the kernel's time has come to what they did not
-  /// compute yet; lets go of them where periodic motion ends. Whether anything moved.
+  /// Moves the held stages as far as is known, when `eager` or when the kernel's time has come to what they
+  /// did not compute yet; lets go of them where periodic motion ends. Whether anything moved.
   bool go_on(bool eager);
   /// The date before which go_on() must be called again. Everything before it is known.
   const sc_core::sc_time& due() const { return due_; }

@@ -9,8 +9,8 @@
 namespace parallax {
 
 /// How full a FIFO was, for how long: cycles of the writer's clock at each fill level. A FIFO of up to 64
-/// tokens has a bin for each level; a deeper one has bins of equal width, a power of two. Counted from cycle 0
-/// until the last date at which the level is known.
+/// tokens has a bin for each level; a deeper one has bins of equal width, a power of two. Counted from cycle
+/// 0 until the last date at which the level is known.
 class Occupancy {
  public:
   static constexpr std::size_t kMaxBins = 65;

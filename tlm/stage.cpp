@@ -134,12 +134,14 @@ bool Stage::fire() {
   starts_[statistics_.firings % kStartsKept] = start;
   for (StreamBase* stream : consumed) stream->mark_read(start, stream == latest ? starved : Cycles(0));
   if (starved > Cycles(0)) {
-    (!latest->at_memory() ? statistics_.starved : frame_begins ? statistics_.blanking : statistics_.memory) +=
-        starved;
+    (!latest->at_memory() ? statistics_.starved
+     : frame_begins       ? statistics_.blanking
+                          : statistics_.memory) += starved;
   }
   (full_at_memory ? statistics_.memory : statistics_.blocked) += start - ready;
   if (frame_begins) frames_.push_back({start, start, Cycles(-1), Cycles(-1), statistics_});
-  (phase.consume == 0 && phase.produce == 0 ? statistics_.blanking : statistics_.busy) += Cycles(phase.interval);
+  (phase.consume == 0 && phase.produce == 0 ? statistics_.blanking : statistics_.busy) +=
+      Cycles(phase.interval);
   ++statistics_.firings;
   frames_.back().last_firing = start;
   free_ = start + Cycles(phase.interval);
@@ -245,7 +247,8 @@ void Stage::skip(Position& position, std::uint64_t firings) const {
       }
       if (firings == 0) return;
     }
-    const std::uint64_t step = std::min<std::uint64_t>(firings, phases[position.phase].count - position.count);
+    const std::uint64_t step =
+        std::min<std::uint64_t>(firings, phases[position.phase].count - position.count);
     firings -= step;
     position.count += static_cast<std::uint32_t>(step);
     if (position.count < phases[position.phase].count) return;

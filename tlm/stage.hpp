@@ -16,16 +16,16 @@
 
 namespace parallax {
 
-/// Where a stage's time went, in cycles of its clock. The five are exact and complete: their sum is the date up to
-/// which they are known.
+/// Where a stage's time went, in cycles of its clock. The five are exact and complete: their sum is the date
+/// up to which they are known.
 struct StageStatistics {
   std::uint64_t firings = 0;
   Cycles busy;      ///< firing with a token on some port
-  Cycles blanking;  ///< declared row and frame overheads, and no frame there: waiting for a frame's first token from
-                    ///< the memory
-  Cycles starved;   ///< held back by an empty input
-  Cycles blocked;   ///< held back by a full output
-  Cycles memory;    ///< held back by a stream from or to a memory port, within a frame
+  Cycles blanking;  ///< declared row and frame overheads, and no frame there: waiting for a frame's first
+                    ///< token from the memory
+  Cycles starved;  ///< held back by an empty input
+  Cycles blocked;  ///< held back by a full output
+  Cycles memory;   ///< held back by a stream from or to a memory port, within a frame
 
   Cycles total() const { return busy + blanking + starved + blocked + memory; }
   StageStatistics& operator-=(const StageStatistics& o) { return add(o, -1); }
@@ -171,7 +171,7 @@ class Stage : public sc_core::sc_module, public Actor {
   Ports outputs_;
 
   Position next_;
-  const Phase* phase_ = nullptr;  // at next_
+  const Phase* phase_ = nullptr;                                          // at next_
   std::uint64_t fire_limit_ = std::numeric_limits<std::uint64_t>::max();  // set by Leap
   std::vector<Observed>* observed_ = nullptr;                             // by Leap
   std::array<Cycles, kStartsKept> starts_{};                              // of the last firings

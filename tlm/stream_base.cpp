@@ -13,8 +13,8 @@ namespace {
 
 constexpr std::uint32_t kMostStages = 8;
 
-// Beyond the depth, a ring holds the dates that settle() has not counted yet, and the history in which periodic motion
-// is recognised.
+// Beyond the depth, a ring holds the dates that settle() has not counted yet, and the history in which
+// periodic motion is recognised.
 constexpr std::uint64_t kHistory = 64;
 
 std::uint64_t ring_mask(std::uint32_t depth) {
@@ -24,16 +24,17 @@ std::uint64_t ring_mask(std::uint32_t depth) {
 }
 
 // The configuration with the offsets of its kind.
-FifoConfig checked(const char* name, FifoConfig config, const ClockDomain& writer, const ClockDomain& reader) {
+FifoConfig checked(const char* name, FifoConfig config, const ClockDomain& writer,
+                   const ClockDomain& reader) {
   if (config.depth < 1 || config.depth > StreamBase::kLargestDepth) {
-    throw UserError(
-        fmt::format("stream '{}': depth {} is outside 1 to {} tokens", name, config.depth, StreamBase::kLargestDepth));
+    throw UserError(fmt::format("stream '{}': depth {} is outside 1 to {} tokens", name, config.depth,
+                                StreamBase::kLargestDepth));
   }
   const bool one_clock = &writer == &reader;
   if (config.kind != FifoKind::kFree) {
     if (config.write_to_read != 1 || config.read_to_write != 1) {
-      throw UserError(fmt::format("stream '{}': a FIFO of kind {} has offsets of its own, none can be given", name,
-                                  name_of(config.kind)));
+      throw UserError(fmt::format("stream '{}': a FIFO of kind {} has offsets of its own, none can be given",
+                                  name, name_of(config.kind)));
     }
     if (config.kind != FifoKind::kAsynchronous && !one_clock) {
       throw UserError(
@@ -49,8 +50,9 @@ FifoConfig checked(const char* name, FifoConfig config, const ClockDomain& write
     config.write_to_read = offsets.write_to_read;
     config.read_to_write = offsets.read_to_write;
   } else if ((config.write_to_read == 0 || config.read_to_write == 0) && !one_clock) {
-    throw UserError(fmt::format("stream '{}': an offset of 0 cycles cannot be kept between the clocks '{}' and '{}'",
-                                name, writer.name(), reader.name()));
+    throw UserError(
+        fmt::format("stream '{}': an offset of 0 cycles cannot be kept between the clocks '{}' and '{}'",
+                    name, writer.name(), reader.name()));
   }
   return config;
 }
@@ -104,9 +106,10 @@ void StreamBase::wake_reader() {
   }
 }
 
-// Goes through writes and reads in the order in which they change the level. A date counts once it is certain that
-// nothing unknown can come before it: each side's next date is later than its last one. With both offsets 0 a token may
-// free its place in the cycle that writes it; the level is then one too low, but for no time.
+// Goes through writes and reads in the order in which they change the level. A date counts once it is certain
+// that nothing unknown can come before it: each side's next date is later than its last one. With both
+// offsets 0 a token may free its place in the cycle that writes it; the level is then one too low, but for no
+// time.
 void StreamBase::settle() const {
   std::uint64_t level = settled_writes_ - freed_;
   for (;;) {
@@ -115,7 +118,8 @@ void StreamBase::settle() const {
     if (!write_known && !read_known) return;
     const Cycles write = write_known ? write_dates_[settled_writes_ & mask_] : last_write_ + Cycles(1);
     const Cycles room = backward(read_known ? read_dates_[freed_ & mask_] : last_read_ + Cycles(1));
-    const bool frees = room <= write;  // first, where both come in one cycle: a token in its last cycle still counts
+    const bool frees =
+        room <= write;  // first, where both come in one cycle: a token in its last cycle still counts
     if (frees ? !read_known : !write_known) return;
     const Cycles date = frees ? room : write;
     if (date > settled_until_) {

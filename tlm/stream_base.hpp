@@ -20,11 +20,11 @@ namespace parallax {
 struct FifoConfig {
   std::uint32_t depth = 2;  ///< tokens in all, output registers included; 1 to 2^24
   Bits width{8};            ///< of one token
-  /// For kind kFree, else left alone: edges of the reader's clock from the writing edge until the token can be
-  /// read. 1 = registered; 0 = in the same cycle, where both sides have one clock.
+  /// For kind kFree, else left alone: edges of the reader's clock from the writing edge until the token can
+  /// be read. 1 = registered; 0 = in the same cycle, where both sides have one clock.
   std::uint32_t write_to_read = 1;
-  /// For kind kFree, else left alone: edges of the writer's clock from the reading edge until the freed place can
-  /// be written. 1 = registered; 0 = in the same cycle, where both sides have one clock.
+  /// For kind kFree, else left alone: edges of the writer's clock from the reading edge until the freed place
+  /// can be written. 1 = registered; 0 = in the same cycle, where both sides have one clock.
   std::uint32_t read_to_write = 1;
   FifoKind kind = FifoKind::kFree;        ///< which circuit; fifo_kind.hpp states the rule of each
   std::uint32_t synchroniser_stages = 2;  ///< registers that a pointer passes, for kind kAsynchronous; 1 to 8
@@ -55,8 +55,8 @@ class StreamListener {
 ///
 /// Contract: token i cannot be read before `write_to_read` reader edges after the edge that wrote it, nor
 /// written before `read_to_write` writer edges after the edge that read token i - depth; both follow from the
-/// kind of FIFO (fifo_kind.hpp). One token a cycle each way. Dates are handed in once, in order, as soon as they
-/// are known, which may be long before kernel time gets there.
+/// kind of FIFO (fifo_kind.hpp). One token a cycle each way. Dates are handed in once, in order, as soon as
+/// they are known, which may be long before kernel time gets there.
 class StreamBase : public sc_core::sc_prim_channel, public virtual sc_core::sc_interface {
  public:
   static constexpr std::uint32_t kLargestDepth = 1u << 24;  // tokens
@@ -84,7 +84,8 @@ class StreamBase : public sc_core::sc_prim_channel, public virtual sc_core::sc_i
     settle();
     return statistics_;
   }
-  /// How full the FIFO was, as its writer sees it: a place counts from the write on until it can be written again.
+  /// How full the FIFO was, as its writer sees it: a place counts from the write on until it can be written
+  /// again.
   const Occupancy& occupancy() const {
     dataflow_.bring_up_to_date();
     settle();
@@ -164,9 +165,10 @@ class StreamBase : public sc_core::sc_prim_channel, public virtual sc_core::sc_i
  private:
   friend class Leap;
   friend class Stage;
-  struct Watch {  // what Leap wants to know of one period
-    bool binds = false;         // a date of this stream held its reader (writer) back
-    std::vector<Cycles> ready;  // when the reader (writer) was ready for each token, whatever this stream's date
+  struct Watch {         // what Leap wants to know of one period
+    bool binds = false;  // a date of this stream held its reader (writer) back
+    std::vector<Cycles>
+        ready;  // when the reader (writer) was ready for each token, whatever this stream's date
     void reset() {
       binds = false;
       ready.clear();
@@ -222,7 +224,8 @@ class StreamBase : public sc_core::sc_prim_channel, public virtual sc_core::sc_i
   sc_core::sc_event read_;
   Watch read_watch_;
   Watch write_watch_;
-  std::vector<std::pair<std::uint64_t, std::uint64_t>>* counted_ = nullptr;  // Leap's copy of what occupancy_ adds
+  std::vector<std::pair<std::uint64_t, std::uint64_t>>* counted_ =
+      nullptr;  // Leap's copy of what occupancy_ adds
   Cycles last_read_{-1};
   Cycles last_write_{-1};
   Cycles read_wait_began_{0};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Leaps over periodic motion change nothing: every date and every statistic is that of going firing by firing.
+// Leaps over periodic motion change nothing: every date and every statistic is that of going firing by
+// firing.
 #include "tlm/leap.hpp"
 
 #include <gtest/gtest.h>
@@ -24,7 +25,8 @@ std::string outcome(Simulation& simulation) {
   const std::vector<EdgeDates> dates = simulation.run();
   for (const StreamBase* stream : simulation.dataflow().streams()) text += statistics_text(*stream);
   for (const Stage* stage : simulation.dataflow().stages()) text += statistics_text(*stage);
-  for (const Wait& wait : simulation.dataflow().waits()) text += fmt::format("{} {} waits\n", wait.waiter, wait.on_full);
+  for (const Wait& wait : simulation.dataflow().waits())
+    text += fmt::format("{} {} waits\n", wait.waiter, wait.on_full);
   for (const EdgeDates& edge : dates) {
     for (const std::int64_t date : edge.written) text += fmt::format("{} ", date);
     text += "| ";

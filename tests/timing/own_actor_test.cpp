@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A block that is neither a Stage nor a thread: an actor of its own, whose pace depends on what it has seen. It stands
-// between ordinary stages, and nobody notices.
+// A block that is neither a Stage nor a thread: an actor of its own, whose pace depends on what it has seen.
+// It stands between ordinary stages, and nobody notices.
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -73,7 +73,8 @@ std::string dates_with(const MakeMiddle& make) {
   for (int i = 0; i < 4; ++i) {
     FifoConfig fifo;
     fifo.depth = 16;
-    streams.push_back(std::make_unique<Stream<int>>(fmt::format("s{}", i).c_str(), dataflow, clock, clock, fifo));
+    streams.push_back(
+        std::make_unique<Stream<int>>(fmt::format("s{}", i).c_str(), dataflow, clock, clock, fifo));
     logs.push_back(std::make_unique<DateLog>(dates[static_cast<std::size_t>(i)]));
     streams.back()->listen(logs.back().get());
   }

@@ -13,16 +13,18 @@ namespace parallax::test {
 inline std::string statistics_text(const StreamBase& stream) {
   const StreamStatistics& s = stream.statistics();
   const Occupancy& o = stream.occupancy();
-  std::string text = fmt::format("{}: written {} read {} high water {} blocked {} starved {}; empty {} full {}, mean {};",
-                                 stream.name(), s.written, s.read, s.high_water, s.blocked_on_full.count(),
-                                 s.starved_on_empty.count(), o.empty(), o.full(), o.mean());
+  std::string text =
+      fmt::format("{}: written {} read {} high water {} blocked {} starved {}; empty {} full {}, mean {};",
+                  stream.name(), s.written, s.read, s.high_water, s.blocked_on_full.count(),
+                  s.starved_on_empty.count(), o.empty(), o.full(), o.mean());
   for (std::size_t bin = 0; bin < o.bins(); ++bin) text += fmt::format(" {}", o.cycles(bin));
   return text + "\n";
 }
 
 inline std::string text_of(const StageStatistics& s) {
-  return fmt::format("firings {} busy {} blanking {} starved {} blocked {} memory {}", s.firings, s.busy.count(),
-                     s.blanking.count(), s.starved.count(), s.blocked.count(), s.memory.count());
+  return fmt::format("firings {} busy {} blanking {} starved {} blocked {} memory {}", s.firings,
+                     s.busy.count(), s.blanking.count(), s.starved.count(), s.blocked.count(),
+                     s.memory.count());
 }
 
 inline std::string statistics_text(const Stage& stage) {

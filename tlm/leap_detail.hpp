@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the parts of Leap share.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+
+#include "tlm/schedule.hpp"
+
+namespace parallax::leap_detail {
+
+constexpr std::uint64_t kLargestUnit =
+    64;  // firings of a unit, and of a period: within the history that is kept
+constexpr std::uint64_t kAlways = std::numeric_limits<std::uint64_t>::max();
+
+inline std::int64_t as_signed(std::uint64_t count) { return static_cast<std::int64_t>(count); }
+inline PortMask without(PortMask mask, PortMask core) { return static_cast<PortMask>(mask & ~core); }
+inline PortMask within(PortMask mask, PortMask core) { return static_cast<PortMask>(mask & core); }
+inline bool contains(PortMask mask, PortMask port) { return (mask & port) != 0; }
+
+// Whether two phases do the same to the core ports.
+inline bool same_in(const Phase& a, const Phase& b, PortMask in, PortMask out) {
+  return a.interval == b.interval && within(a.consume, in) == within(b.consume, in) &&
+         within(a.produce, out) == within(b.produce, out);
+}
+
+}  // namespace parallax::leap_detail
