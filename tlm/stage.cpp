@@ -103,6 +103,7 @@ bool Stage::fire() {
 
   Cycles room(0);
   bool full_at_memory = false;
+  StreamBase* fullest = nullptr;  // of a combinational stage
   if (phase.produce != 0) {
     if (latency_ == 0) {
       for (StreamBase* stream : outputs_.of_mask[phase.produce]) {
@@ -111,6 +112,7 @@ bool Stage::fire() {
           known = false;
         } else if (const Cycles date = stream->writable_at(); date > room) {
           room = date;
+          fullest = stream;
           full_at_memory = stream->at_memory();
         }
       }
@@ -139,6 +141,7 @@ bool Stage::fire() {
                           : statistics_.memory) += starved;
   }
   (full_at_memory ? statistics_.memory : statistics_.blocked) += start - ready;
+  if (fullest != nullptr && start > ready) fullest->count_blocked(start - ready);
   if (frame_begins) frames_.push_back({start, start, Cycles(-1), Cycles(-1), statistics_});
   (phase.consume == 0 && phase.produce == 0 ? statistics_.blanking : statistics_.busy) +=
       Cycles(phase.interval);

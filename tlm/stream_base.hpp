@@ -180,6 +180,7 @@ class StreamBase : public sc_core::sc_prim_channel, public virtual sc_core::sc_i
     watch.ready.push_back(ready);
     watch.binds = watch.binds || date > ready;
   }
+  void count_blocked(Cycles cycles) { statistics_.blocked_on_full += cycles; }
   Cycles write_date(std::uint64_t token) const { return write_dates_[token & mask_]; }
   Cycles read_date(std::uint64_t token) const { return read_dates_[token & mask_]; }
   std::uint64_t history() const { return mask_ + 1; }

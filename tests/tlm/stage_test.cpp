@@ -48,6 +48,14 @@ TEST(Stage, CombinationalReadsAndWritesInOneCycle) {
   EXPECT_EQ(dates[1].written, Dates({1, 2, 3, 4}));
 }
 
+TEST(Stage, CombinationalCountsWhatAFullFifoCosts) {
+  // The FIFO of one token is free again in cycle 11, and every second cycle from there.
+  ModelSimulation model(chain(zeros(4), stage(0, {{4, {{1, 1, 1, 1}}}}), {10, 0, 0, 0}, 1), kThreads);
+  EXPECT_EQ(model.run()[1].written, Dates({1, 11, 13, 15}));
+  EXPECT_EQ(model.stream(1).statistics().blocked_on_full.count(), 9 + 1 + 1);
+  EXPECT_EQ(model.stage(1).statistics().blocked.count(), 9 + 1 + 1);
+}
+
 TEST(Stage, FiresOnceAnInterval) {
   ModelSimulation model(chain(zeros(4), stage(0, {{4, {{1, 3, 1, 1}}}}), zeros(4)), kThreads);
   EXPECT_EQ(model.run()[1].written, Dates({1, 4, 7, 10}));
