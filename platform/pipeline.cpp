@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <initializer_list>
 
+#include "platform/engine_config.hpp"
+
 namespace parallax {
 namespace {
 
@@ -30,10 +32,6 @@ std::int64_t cost_bits(const MachineConfig& config) {
 }
 
 }  // namespace
-
-DmaEngineConfig engine_config(const DmaPortConfig& port) {
-  return {Bytes(port.burst_bytes), port.outstanding, port.fifo_bytes / port.burst_bytes};
-}
 
 template <class T>
 Stream<T>& Pipeline::stream(const char* name, std::int64_t width_bits, std::uint64_t needed_depth) {

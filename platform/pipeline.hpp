@@ -79,7 +79,4 @@ class Pipeline final : public sc_core::sc_module {
   std::vector<std::unique_ptr<StreamBase>> streams_;
 };
 
-/// Engine parameters of a configured port.
-DmaEngineConfig engine_config(const DmaPortConfig& port);
-
 }  // namespace parallax

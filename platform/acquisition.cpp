@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "platform/acquisition.hpp"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "platform/engine_config.hpp"
+#include "platform/when_both.hpp"
+
+namespace parallax {
+namespace {
+
+// A row takes its pixels and the blanking at the pixel clock, or as long as the cable needs for it.
+SensorConfig sensor_config(const MachineConfig& config, const MachineInput& input) {
+  const std::int64_t read_out = std::int64_t{input.width} + config.camera.row_blanking;
+  const std::int64_t cable =
+      (std::int64_t{input.width} * config.clocks.camera_hz + config.camera.bytes_per_second - 1) /
+      config.camera.bytes_per_second;
+  SensorConfig sensor;
+  sensor.width = input.width;
+  sensor.height = input.height;
+  sensor.row = Cycles(std::max(read_out, cable));
+  sensor.frame_blanking = Cycles(config.camera.frame_blanking);
+  sensor.burst = Bytes(config.dma.camera.burst_bytes);
+  return sensor;
+}
+
+}  // namespace
+
+Acquisition::Acquisition(const sc_core::sc_module_name& name, const MachineConfig& config,
+                         const MachineInput& input, const MemoryMap& memory_map, const ClockDomain& clock,
+                         Dataflow& dataflow, Listener listener)
+    : sc_module(name),
+      config_(config),
+      input_(input),
+      memory_map_(memory_map),
+      clock_(clock),
+      listener_(std::move(listener)),
+      left_sensor_("left_sensor", sensor_config(config, input), clock, dataflow),
+      right_sensor_("right_sensor", sensor_config(config, input), clock, dataflow),
+      dma_left_("dma_left", engine_config(config.dma.camera), clock),
+      dma_right_("dma_right", engine_config(config.dma.camera), clock),
+      left_bursts_("camera_left_bursts", dataflow, clock, clock, engine_config(config.dma.camera).fifo()),
+      right_bursts_("camera_right_bursts", dataflow, clock, clock, engine_config(config.dma.camera).fifo()) {
+  left_sensor_.out_bursts(left_bursts_);
+  right_sensor_.out_bursts(right_bursts_);
+  dma_left_.in_bursts(left_bursts_);
+  dma_right_.in_bursts(right_bursts_);
+  SC_HAS_PROCESS(Acquisition);
+  SC_THREAD(expose_frames);
+}
+
+const MemoryMap::FrameBuffer& Acquisition::buffer(std::int64_t frame) const {
+  return memory_map_.frames[static_cast<std::size_t>(frame) % memory_map_.frames.size()];
+}
+
+void Acquisition::release() {
+  --buffers_used_;
+  buffer_free_.notify();
+}
+
+// Nothing that has to be freed lives on this thread's stack while it waits: it never ends.
+void Acquisition::expose_frames() {
+  for (std::int64_t frame = 0;; ++frame) {
+    wait_for_buffer();
+    if (config_.camera.frame_rate > 0) {
+      const double due = static_cast<double>(frame) / config_.camera.frame_rate;
+      clock_.wait_until(
+          Cycles(static_cast<std::int64_t>(due * static_cast<double>(config_.clocks.camera_hz))));
+    }
+    expose(frame);
+    sc_core::wait(frame_complete_);
+    clock_.wait_until(clock_.cycle_at_or_after(exposed_) + left_sensor_.frame_time());
+  }
+}
+
+void Acquisition::wait_for_buffer() {
+  waits_for_buffer_ = true;
+  buffer_wait_began_ = sc_core::sc_time_stamp();
+  while (buffers_used_ == static_cast<std::int64_t>(memory_map_.frames.size())) {
+    sc_core::wait(buffer_free_);
+  }
+  waits_for_buffer_ = false;
+  buffer_wait_ += sc_core::sc_time_stamp() - buffer_wait_began_;
+}
+
+void Acquisition::expose(std::int64_t frame) {
+  ++buffers_used_;
+  const StereoFrame images = frame < input_.frames && input_.expose ? input_.expose(frame) : StereoFrame{};
+  const bool values = images.left != nullptr;
+  exposed_ = sc_core::sc_time_stamp();
+  listener_.exposed(frame, values);
+  const std::function<void()> done = when_both([this, frame] {
+    frame_complete_.notify();
+    listener_.in_memory(frame);
+  });
+  const std::vector<std::uint32_t> rows(static_cast<std::size_t>(input_.height),
+                                        static_cast<std::uint32_t>(input_.width));
+  dma_left_.start({buffer(frame).left, rows, values, done});
+  dma_right_.start({buffer(frame).right, rows, values, done});
+  left_sensor_.read_out(images.left);
+  right_sensor_.read_out(images.right);
+}
+
+sc_core::sc_time Acquisition::buffer_wait() const {
+  if (!waits_for_buffer_) return buffer_wait_;
+  return buffer_wait_ + (sc_core::sc_time_stamp() - buffer_wait_began_);
+}
+
+}  // namespace parallax
