@@ -69,8 +69,8 @@ Schedule map_schedule(const EncodedMap& map, Bytes word, const StageTiming& timi
 MapDecoderStage::MapDecoderStage(const sc_core::sc_module_name& name, const EncodedMap& map, Bytes word,
                                  const StageTiming& timing, const StageContext& context)
     : Stage(name, context.clock, context.dataflow, timing.latency),
-      kernel_(map.range, context.width, context.height),
-      row_(static_cast<std::size_t>(context.width)) {
+      kernel_(map.range, map.width, map.height),
+      row_(static_cast<std::size_t>(map.width)) {
   set_schedule(map_schedule(map, word, timing));
   in_words.on_row(0, [this](const std::uint8_t* bytes, std::size_t size) {
     kernel_.push(bytes, size, row_.data());

@@ -4,53 +4,96 @@
 namespace parallax {
 namespace {
 
-// Byte of the frame that is complete after `pixels` pixels.
-std::uint64_t packed_bytes(std::uint64_t pixels, int width) {
-  const auto row = static_cast<std::uint64_t>(width);
-  const std::uint64_t x = pixels % row;
-  return pixels / row * OutputPacking::row_bytes(width) + x / 2 * 5;
+// Collects the firings of pixels, one after the other.
+class Firings {
+ public:
+  explicit Firings(Bytes burst) : burst_(static_cast<std::uint64_t>(burst.count())) {}
+
+  void drop(int pixels) { idle_ += static_cast<std::uint32_t>(pixels); }
+  // A pixel after which the piece has `bytes` bytes; `last`: it ends there.
+  void pack(std::uint64_t bytes, bool last) {
+    const std::uint64_t complete = last ? (bytes + burst_ - 1) / burst_ : bytes / burst_;
+    if (complete == bursts_) {
+      ++idle_;
+    } else {
+      schedule_.repeat(1, {{idle_, 1, 0b11, 0}, {1, 1, 0b11, 0b1}});
+      idle_ = 0;
+      // A burst smaller than a pixel pair leaves in a cycle of its own.
+      if (complete - bursts_ > 1)
+        schedule_.run({static_cast<std::uint32_t>(complete - bursts_ - 1), 1, 0, 0b1});
+    }
+    bursts_ = last ? 0 : complete;
+  }
+  Schedule take() {
+    if (idle_ > 0) schedule_.run({idle_, 1, 0b11, 0});
+    return std::move(schedule_);
+  }
+
+ private:
+  const std::uint64_t burst_;
+  std::uint64_t bursts_ = 0;  // complete, of the piece
+  std::uint32_t idle_ = 0;    // pixels since the last one that completed a burst
+  Schedule schedule_;
+};
+
+bool whole(const OutputPackingConfig& config, const StageContext& context) {
+  return config.passes.size() == 1 && config.passes[0].begin == 0 && config.passes[0].end == context.width;
 }
 
-Schedule packing_schedule(Bytes burst, const StageContext& context) {
-  const auto size = static_cast<std::uint64_t>(burst.count());
-  const std::uint64_t pixels = context.pixels();
-  Schedule schedule;
-  std::uint64_t bursts = 0;
-  std::uint32_t run = 0;  // pixels since the last one that completed a burst
-  for (std::uint64_t pixel = 1; pixel <= pixels; ++pixel) {
-    const std::uint64_t bytes = packed_bytes(pixel, context.width);
-    const std::uint64_t complete = pixel == pixels ? (bytes + size - 1) / size : bytes / size;
-    if (complete == bursts) {
-      ++run;
-      continue;
+Schedule packing_schedule(const OutputPackingConfig& config, const StageContext& context) {
+  const bool one_piece = whole(config, context);
+  Firings firings(config.burst);
+  for (const PackedColumns& columns : config.passes) {
+    const int width = columns.end - columns.begin;
+    for (int y = 0; y < context.height; ++y) {
+      firings.drop(columns.begin);
+      const std::uint64_t before =
+          one_piece ? static_cast<std::uint64_t>(y) * OutputPacking::row_bytes(width) : 0;
+      for (int x = 1; x <= width; ++x) {
+        const bool last = x == width && (!one_piece || y + 1 == context.height);
+        const std::uint64_t bytes =
+            x == width ? OutputPacking::row_bytes(width) : static_cast<std::uint64_t>(x) / 2 * 5;
+        firings.pack(before + bytes, last);
+      }
+      firings.drop(context.width - columns.end);
     }
-    schedule.repeat(1, {{run, 1, 0b11, 0}, {1, 1, 0b11, 0b1}});
-    run = 0;
-    // A burst smaller than a pixel pair leaves in a cycle of its own.
-    if (complete - bursts > 1) schedule.run({static_cast<std::uint32_t>(complete - bursts - 1), 1, 0, 0b1});
-    bursts = complete;
   }
-  return schedule;
+  return firings.take();
+}
+
+std::vector<OutputPacking> kernels(const std::vector<PackedColumns>& passes) {
+  std::vector<OutputPacking> kernels;
+  for (const PackedColumns& columns : passes) kernels.emplace_back(columns.end - columns.begin);
+  return kernels;
 }
 
 }  // namespace
 
-OutputPackingStage::OutputPackingStage(const sc_core::sc_module_name& name, Bytes burst,
+OutputPackingStage::OutputPackingStage(const sc_core::sc_module_name& name, const OutputPackingConfig& config,
                                        const StageContext& context)
     : Stage(name, context.clock, context.dataflow, 1),
-      kernel_(context.width),
-      burst_(burst.count() * 8),
+      passes_(config.passes),
+      height_(context.height),
+      kernels_(kernels(config.passes)),
+      burst_(config.burst.count() * 8),
       rows_(static_cast<std::size_t>(context.width), static_cast<std::size_t>(context.width),
-            [this, width = context.width](const Gray* left, const Disparity* disparities) {
-              if (tap_) tap_(disparities);
-              kernel_.push(left, disparities, [this, width](const std::uint8_t* row) {
-                out_bursts.send_row(row, OutputPacking::row_bytes(width));
-              });
-            }) {
+            [this](const Gray* left, const Disparity* disparities) { pack(left, disparities); }) {
   const auto width = static_cast<std::size_t>(context.width);
-  set_schedule(packing_schedule(burst, context));
+  set_schedule(packing_schedule(config, context));
   in_left.on_row(width, [this](const Gray* row, std::size_t) { rows_.push_a(row); });
   in_disparity.on_row(width, [this](const Disparity* row, std::size_t) { rows_.push_b(row); });
+}
+
+void OutputPackingStage::pack(const Gray* left, const Disparity* disparities) {
+  if (tap_) tap_(disparities);
+  const PackedColumns& columns = passes_[pass_];
+  kernels_[pass_].push(left + columns.begin, disparities + columns.begin, [&](const std::uint8_t* row) {
+    out_bursts.send_row(row, OutputPacking::row_bytes(columns.end - columns.begin));
+  });
+  if (++y_ == height_) {
+    y_ = 0;
+    pass_ = (pass_ + 1) % passes_.size();
+  }
 }
 
 }  // namespace parallax

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <systemc>
+#include <vector>
 
 #include "modules/output_packing.hpp"
 #include "modules/raster_schedule.hpp"
@@ -10,25 +12,46 @@
 
 namespace parallax {
 
+/// Which columns of a pass over the image go out: [begin, end), both even but for an end at the last column.
+struct PackedColumns {
+  int begin = 0;
+  int end = 0;
+};
+
+/// What output packing packs.
+struct OutputPackingConfig {
+  Bytes burst{128};
+  std::vector<PackedColumns> passes;  ///< of one frame, each over context.height rows of context.width pixels
+};
+
 /// Output packing: a rectified left pixel and its disparity in, one cycle each; a burst out when its last
-/// byte is packed, at most one a cycle (output_packing.hpp).
+/// byte is packed, at most one a cycle (output_packing.hpp). A frame of one pass over all columns is packed
+/// as one piece; else each row is one, as it goes to an address of its own, and pixels of other columns are
+/// dropped.
 class OutputPackingStage final : public Stage {
  public:
   StreamIn<Gray> in_left{"in_left"};
   StreamIn<Disparity> in_disparity{"in_disparity"};
   StreamOut<std::uint8_t> out_bursts{"out_bursts"};
 
-  OutputPackingStage(const sc_core::sc_module_name& name, Bytes burst, const StageContext& context);
+  OutputPackingStage(const sc_core::sc_module_name& name, const OutputPackingConfig& config,
+                     const StageContext& context);
 
   /// The burst in the making.
-  Bits storage() const { return Bits(kernel_.storage_bits()) + burst_; }
-  /// Told of each row of disparities with the causes that the packed bytes do not carry; a view for the
-  /// model's user, not a part of the machine.
+  Bits storage() const { return Bits(kernels_.front().storage_bits()) + burst_; }
+  /// Told of each row of disparities, in all columns, with the causes that the packed bytes do not carry; a
+  /// view for the model's user, not a part of the machine.
   void tap(std::function<void(const Disparity* row)> tap) { tap_ = std::move(tap); }
 
  private:
-  OutputPacking kernel_;
+  void pack(const Gray* left, const Disparity* disparities);
+
+  const std::vector<PackedColumns> passes_;
+  const int height_;
+  std::vector<OutputPacking> kernels_;  // one a pass
   Bits burst_;
+  std::size_t pass_ = 0;  // under way
+  int y_ = 0;             // its next row
   std::function<void(const Disparity*)> tap_;
   RowJoin<Gray, Disparity> rows_;
 };

@@ -23,8 +23,8 @@ struct LinkJob {
 
 /// Ethernet link: cuts the results into packets and sends them at the line rate. A packet leaves when its
 /// payload is there, the wire is free, and the host has taken the pixels before: the host's own rate is a
-/// limit beside the line's, carried over from frame to frame. Dates of packets follow from those of the bursts, so they
-/// are known ahead of time.
+/// limit beside the line's, carried over from frame to frame. Dates of packets follow from those of the
+/// bursts, so they are known ahead of time.
 class EthernetLink final : public sc_core::sc_module, public Actor {
  public:
   StreamIn<std::uint8_t> in_bursts{"in_bursts"};

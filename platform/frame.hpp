@@ -37,6 +37,7 @@ struct Activity {
   std::vector<Port> ports;       ///< in the order of the memory's ports
   Cycles camera;                 ///< camera cycles in which a sensor read a frame out
   sc_core::sc_time buffer_wait;  ///< in which the cameras waited for a frame buffer
+  sc_core::sc_time core;         ///< in which the core worked on a frame or was about to be started
   Cycles wire;                   ///< link cycles with a packet on the wire
   Cycles host;                   ///< link cycles in which the host was taking pixels
 };

@@ -38,7 +38,9 @@ Machine::Machine(const sc_core::sc_module_name& name, const MachineConfig& confi
     : sc_module(name),
       config_(config),
       input_(input),
-      memory_map_(lay_out_memory(config, input.width, input.height, *input.map)),
+      tiles_(plan_tiles(config.tiles, config.matching.range(), input.width)),
+      tiled_map_(tiles_.tiles.size() > 1 ? cut_map(*input.map, tiles_) : EncodedMap{}),
+      memory_map_(lay_out_memory(config, input.width, input.height, map())),
       core_clock_("core", Hertz(config.clocks.core_hz)),
       memory_clock_("memory", Hertz(config.clocks.memory_hz)),
       camera_clock_("camera", Hertz(config.clocks.camera_hz)),
@@ -52,55 +54,70 @@ Machine::Machine(const sc_core::sc_module_name& name, const MachineConfig& confi
                       times_.back().exposed = sc_core::sc_time_stamp();
                     },
                     [this](std::int64_t frame) { frame_in_memory(frame); }}),
-      core_("core", config_, input_, memory_map_.map, core_clock_, dataflow_),
+      core_("core", config_, input_, {tiles_, map(), memory_map_.map}, core_clock_, dataflow_),
       transmission_("transmission", config_, link_clock_, dataflow_) {
   for (BusMaster* master : masters()) master->socket.bind(memory_.socket);
   core_.pipeline().output().tap([this](const Disparity* row) { take_row(row); });
+  SC_HAS_PROCESS(Machine);
+  SC_METHOD(start_core);
+  sensitive << start_;
+  dont_initialize();
 }
 
 // The map is there before the first frame.
 void Machine::start_of_simulation() {
   if (input_.timing_only) return;
-  ::tlm::tlm_generic_payload map;
-  std::vector<std::uint8_t> map_bytes = input_.map->bytes;
-  map.set_command(::tlm::TLM_WRITE_COMMAND);
-  map.set_address(memory_map_.map);
-  map.set_data_ptr(map_bytes.data());
-  map.set_data_length(static_cast<unsigned>(map_bytes.size()));
-  map.set_streaming_width(map.get_data_length());
-  core_.map_master().socket->transport_dbg(map);
+  ::tlm::tlm_generic_payload payload;
+  std::vector<std::uint8_t> map_bytes = map().bytes;
+  payload.set_command(::tlm::TLM_WRITE_COMMAND);
+  payload.set_address(memory_map_.map);
+  payload.set_data_ptr(map_bytes.data());
+  payload.set_data_length(static_cast<unsigned>(map_bytes.size()));
+  payload.set_streaming_width(payload.get_data_length());
+  core_.map_master().socket->transport_dbg(payload);
 }
 
 void Machine::frame_in_memory(std::int64_t frame) {
   times_[static_cast<std::size_t>(frame)].in_memory = sc_core::sc_time_stamp();
+  ++in_memory_;
+  start_when_possible();
+}
+
+// Called whenever something may have changed that the core's next frame waits for.
+void Machine::start_when_possible() {
+  const bool buffer = output_buffers_used_ < static_cast<std::int64_t>(memory_map_.outputs.size());
+  if (starting_ || started_ == in_memory_ || !buffer) return;
+  if (in_core_ > 0 && !config_.software.queue_frames) return;
+  starting_ = true;
+  ++output_buffers_used_;
+  if (in_core_ == 0) core_taken_since_ = sc_core::sc_time_stamp();
+  start_.notify(sc_core::sc_time(static_cast<double>(config_.software.response_ns), sc_core::SC_NS));
+}
+
+void Machine::start_core() {
+  starting_ = false;
+  ++in_core_;
+  const std::int64_t frame = started_++;
   const MemoryMap::FrameBuffer& buffer = acquisition_.buffer(frame);
-  core_.start({buffer.left, buffer.right, values_[static_cast<std::size_t>(frame)],
-               [this] { acquisition_.release(); }});
-  ++processing_;
-  start_outputs();
+  core_.start({buffer.left, buffer.right, values_[static_cast<std::size_t>(frame)], output_buffer(frame),
+               [this] { acquisition_.release(); }, [this, frame] { results_in_memory(frame); }});
+  start_when_possible();
 }
 
 std::uint64_t Machine::output_buffer(std::int64_t frame) const {
   return memory_map_.outputs[static_cast<std::size_t>(frame) % memory_map_.outputs.size()];
 }
 
-// Gives output buffers to the frames that are being processed, in order.
-void Machine::start_outputs() {
-  while (to_output_ < processing_ &&
-         output_buffers_used_ < static_cast<std::int64_t>(memory_map_.outputs.size())) {
-    const std::int64_t frame = to_output_++;
-    ++output_buffers_used_;
-    core_.start_output(output_buffer(frame), values_[static_cast<std::size_t>(frame)],
-                       [this, frame] { results_in_memory(frame); });
-  }
-}
-
 void Machine::results_in_memory(std::int64_t frame) {
   FrameTimes& times = times_[static_cast<std::size_t>(frame)];
   times.results_in_memory = sc_core::sc_time_stamp();
-  const FrameDates& dates = pipeline().last_filter().frames()[static_cast<std::size_t>(frame)];
-  times.first_disparity = core_clock_.time_of(dates.first_write);
-  times.last_disparity = core_clock_.time_of(dates.last_write);
+  core_taken_ = core_taken();
+  core_taken_since_ = sc_core::sc_time_stamp();
+  --in_core_;
+  const StageInfo filter = pipeline().last_filter();
+  const auto index = static_cast<std::size_t>(frame);
+  times.first_disparity = core_clock_.time_of(filter.first_pass(index).first_write);
+  times.last_disparity = core_clock_.time_of(filter.last_pass(index).last_write);
 
   DmaJob job;
   job.address = output_buffer(frame);
@@ -109,12 +126,20 @@ void Machine::results_in_memory(std::int64_t frame) {
   job.values = values_[static_cast<std::size_t>(frame)];
   transmission_.start(std::move(job),
                       [this, frame](const std::vector<std::uint8_t>& sent) { deliver(frame, sent); });
+  start_when_possible();
 }
 
+// Rows come tile by tile, each with all columns of its tile.
 void Machine::take_row(const Disparity* row) {
-  labelled_rows_.insert(labelled_rows_.end(), row, row + input_.width);
-  const auto pixels = static_cast<std::size_t>(input_.width) * static_cast<std::size_t>(input_.height);
-  if (labelled_rows_.size() == pixels) {
+  const auto width = static_cast<std::size_t>(input_.width);
+  const auto height = static_cast<std::size_t>(input_.height);
+  labelled_rows_.resize(width * height);
+  const Tile& tile = tiles_.tiles[rows_taken_ / height];
+  std::copy(
+      row + (tile.keep_begin - tile.begin), row + (tile.keep_end - tile.begin),
+      labelled_rows_.begin() + static_cast<std::ptrdiff_t>(rows_taken_ % height * width) + tile.keep_begin);
+  if (++rows_taken_ == tiles_.tiles.size() * height) {
+    rows_taken_ = 0;
     labelled_.push_back(std::move(labelled_rows_));
     labelled_rows_.clear();
   }
@@ -124,7 +149,7 @@ void Machine::deliver(std::int64_t frame, const std::vector<std::uint8_t>& bytes
   times_[static_cast<std::size_t>(frame)].at_host = sc_core::sc_time_stamp();
   activities_.push_back(activity());
   --output_buffers_used_;
-  start_outputs();
+  start_when_possible();
   FrameResult result;
   result.index = frame;
   if (!bytes.empty()) {
@@ -167,6 +192,11 @@ std::vector<std::uint32_t> Machine::dma_places() const {
           reading(dma.map),       dma.output.outstanding, reading(dma.link)};
 }
 
+sc_core::sc_time Machine::core_taken() const {
+  if (in_core_ == 0 && !starting_) return core_taken_;
+  return core_taken_ + (sc_core::sc_time_stamp() - core_taken_since_);
+}
+
 Activity Machine::activity() {
   Activity activity;
   activity.time = sc_core::sc_time_stamp();
@@ -177,6 +207,7 @@ Activity Machine::activity() {
   }
   activity.camera = sensor().busy();
   activity.buffer_wait = acquisition_.buffer_wait();
+  activity.core = core_taken();
   activity.wire = link().wire_busy();
   activity.host = link().host_busy();
   return activity;

@@ -12,6 +12,7 @@
 #include "platform/machine_input.hpp"
 #include "platform/memory_map.hpp"
 #include "platform/stereo_core.hpp"
+#include "platform/tile_plan.hpp"
 #include "platform/transmission.hpp"
 #include "tlm/memory.hpp"
 
@@ -40,6 +41,9 @@ class Machine final : public sc_core::sc_module {
   const Pipeline& pipeline() const { return core_.pipeline(); }
   const Dataflow& dataflow() const { return dataflow_; }
   const Memory& memory() const { return memory_; }
+  const TilePlan& tiles() const { return tiles_; }
+  /// The rectification map as it lies in memory: cut for the tiles.
+  const EncodedMap& map() const { return tiles_.tiles.size() > 1 ? tiled_map_ : *input_.map; }
   const MemoryMap& memory_map() const { return memory_map_; }
   const EthernetLink& link() const { return transmission_.link(); }
   const Sensor& sensor() const { return acquisition_.sensor(); }
@@ -51,7 +55,8 @@ class Machine final : public sc_core::sc_module {
 
  private:
   void frame_in_memory(std::int64_t frame);
-  void start_outputs();
+  void start_when_possible();
+  void start_core();
   void results_in_memory(std::int64_t frame);
   void take_row(const Disparity* row);
   void deliver(std::int64_t frame, const std::vector<std::uint8_t>& bytes);
@@ -59,9 +64,12 @@ class Machine final : public sc_core::sc_module {
   void start_of_simulation() override;
   std::vector<BusMaster*> masters();  // in the order of the memory's ports
   Activity activity();
+  sc_core::sc_time core_taken() const;
 
   const MachineConfig config_;
   const MachineInput input_;
+  const TilePlan tiles_;
+  const EncodedMap tiled_map_;  // unless there is one tile
   const MemoryMap memory_map_;
   ClockDomain core_clock_;
   ClockDomain memory_clock_;
@@ -75,13 +83,19 @@ class Machine final : public sc_core::sc_module {
 
   std::vector<FrameTimes> times_;
   std::vector<Activity> activities_;
-  std::vector<bool> values_;     // whether a frame carries images
-  std::int64_t to_output_ = 0;   // next frame that gets an output buffer
-  std::int64_t processing_ = 0;  // frames handed to the core
+  std::vector<bool> values_;           // whether a frame carries images
+  std::int64_t in_memory_ = 0;         // frames
+  std::int64_t started_ = 0;           // of them, in the core or through it
+  bool starting_ = false;              // software is about to start the next one
+  std::int64_t in_core_ = 0;           // frames
+  sc_core::sc_time core_taken_;        // time in which the core worked or was about to be started, until
+  sc_core::sc_time core_taken_since_;  // this date
+  sc_core::sc_event start_;
   std::int64_t output_buffers_used_ = 0;
   std::int64_t delivered_ = 0;
   std::deque<std::vector<Disparity>> labelled_;  // frames on their way to the host, as the pipeline made them
   std::vector<Disparity> labelled_rows_;         // of the frame that is leaving the pipeline
+  std::size_t rows_taken_ = 0;                   // of all its tiles
 };
 
 }  // namespace parallax

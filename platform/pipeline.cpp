@@ -12,12 +12,28 @@ namespace {
 constexpr std::int64_t kGrayBits = 8;
 constexpr std::int64_t kDisparityBits = 12;
 
-UnpackerConfig image_bursts(const StageContext& context, const DmaPortConfig& port) {
-  return {context.pixels(), Bytes(port.burst_bytes), Bytes(1), static_cast<std::size_t>(context.width)};
+// The image is one piece, or each row of a tile is (StereoCore).
+UnpackerConfig image_bursts(const TilePlan& tiles, const StageContext& context, const DmaPortConfig& port) {
+  const auto width = static_cast<std::size_t>(context.width);
+  UnpackerConfig config{context.pixels(), Bytes(port.burst_bytes), Bytes(1), width};
+  if (tiles.tiles.size() > 1) {
+    config.pieces = static_cast<std::uint64_t>(context.height);
+    config.piece_bytes = width;
+  }
+  return config;
+}
+
+OutputPackingConfig packing(const TilePlan& tiles, const DmaPortConfig& port) {
+  OutputPackingConfig config;
+  config.burst = Bytes(port.burst_bytes);
+  for (const Tile& tile : tiles.tiles) {
+    config.passes.push_back({tile.keep_begin - tile.begin, tile.keep_end - tile.begin});
+  }
+  return config;
 }
 
 UnpackerConfig map_bursts(const EncodedMap& map, const DmaPortConfig& port) {
-  return {map.bytes.size(), Bytes(port.burst_bytes), Bytes(port.data_bits / 8), 0};
+  return {map.bytes.size(), Bytes(port.burst_bytes), Bytes(port.data_bits / 8)};
 }
 
 // Bits of a sum of path costs: each path costs at most weighted code bits + P2 (matching.hpp).
@@ -47,12 +63,15 @@ Stream<T>& Pipeline::stream(const char* name, std::int64_t width_bits, std::uint
 }
 
 Pipeline::Pipeline(const sc_core::sc_module_name& name, const MachineConfig& config, const EncodedMap& map,
-                   const StageContext& context)
+                   const TilePlan& tiles, const StageContext& context)
     : sc_module(name),
       config_(config),
       context_(context),
-      unpack_left_("unpack_left", image_bursts(context, config.dma.left), context.clock, context.dataflow),
-      unpack_right_("unpack_right", image_bursts(context, config.dma.right), context.clock, context.dataflow),
+      tiles_(tiles.tiles.size()),
+      unpack_left_("unpack_left", image_bursts(tiles, context, config.dma.left), context.clock,
+                   context.dataflow),
+      unpack_right_("unpack_right", image_bursts(tiles, context, config.dma.right), context.clock,
+                    context.dataflow),
       unpack_map_("unpack_map", map_bursts(map, config.dma.map), context.clock, context.dataflow),
       map_decoder_("map_decoder", map, Bytes(config.dma.map.data_bits / 8), config.timing.map_decoder,
                    context),
@@ -71,7 +90,7 @@ Pipeline::Pipeline(const sc_core::sc_module_name& name, const MachineConfig& con
       gap_interpolation_("gap_interpolation", config.gap_interpolation, config.timing.gap_interpolation,
                          context),
       noise_reduction_("noise_reduction", config.noise_reduction, config.timing.noise_reduction, context),
-      output_packing_("output_packing", Bytes(config.dma.output.burst_bytes), context),
+      output_packing_("output_packing", packing(tiles, config.dma.output), context),
       left_bursts_("left_bursts", context.dataflow, context.clock, context.clock,
                    engine_config(config.dma.left).fifo()),
       right_bursts_("right_bursts", context.dataflow, context.clock, context.clock,
@@ -182,21 +201,24 @@ void Pipeline::bind(StreamOut<std::uint8_t>& left, StreamOut<std::uint8_t>& righ
   output(output_bursts_);
 }
 
+StageInfo Pipeline::last_filter() const { return {&noise_reduction_, noise_reduction_.storage(), tiles_}; }
+
 std::vector<StageInfo> Pipeline::stages() const {
-  return {{&unpack_left_, Bits(config_.dma.left.burst_bytes * 8)},
-          {&unpack_right_, Bits(config_.dma.right.burst_bytes * 8)},
+  // The map, and the results, of all tiles are one frame each.
+  return {{&unpack_left_, Bits(config_.dma.left.burst_bytes * 8), tiles_},
+          {&unpack_right_, Bits(config_.dma.right.burst_bytes * 8), tiles_},
           {&unpack_map_, Bits(config_.dma.map.burst_bytes * 8)},
           {&map_decoder_, map_decoder_.storage()},
-          {&rectification_, rectification_.storage()},
-          {&census_, census_.storage()},
-          {&matching_, matching_.storage()},
-          {&subpixel_, subpixel_.storage()},
-          {&uniqueness_, uniqueness_.storage()},
-          {&consistency_, consistency_.storage()},
-          {&texture_, texture_.storage()},
-          {&speckle_, speckle_.storage()},
-          {&gap_interpolation_, gap_interpolation_.storage()},
-          {&noise_reduction_, noise_reduction_.storage()},
+          {&rectification_, rectification_.storage(), tiles_},
+          {&census_, census_.storage(), tiles_},
+          {&matching_, matching_.storage(), tiles_},
+          {&subpixel_, subpixel_.storage(), tiles_},
+          {&uniqueness_, uniqueness_.storage(), tiles_},
+          {&consistency_, consistency_.storage(), tiles_},
+          {&texture_, texture_.storage(), tiles_},
+          {&speckle_, speckle_.storage(), tiles_},
+          {&gap_interpolation_, gap_interpolation_.storage(), tiles_},
+          last_filter(),
           {&output_packing_, output_packing_.storage()}};
 }
 

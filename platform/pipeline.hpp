@@ -20,6 +20,7 @@
 #include "modules/texture_stage.hpp"
 #include "modules/uniqueness_stage.hpp"
 #include "platform/config/machine_config.hpp"
+#include "platform/tile_plan.hpp"
 #include "tlm/dma.hpp"
 #include "tlm/unpacker.hpp"
 
@@ -28,15 +29,22 @@ namespace parallax {
 /// A stage with what it declares, for reports.
 struct StageInfo {
   const Stage* stage;
-  Bits storage;  ///< line buffers and the like, beside the FIFOs
+  Bits storage;            ///< line buffers and the like, beside the FIFOs
+  std::size_t passes = 1;  ///< times that the stage goes through its schedule for one frame
+
+  std::uint64_t cycles_per_frame() const { return stage->schedule().cycles() * passes; }
+  /// Dates of the first or the last pass over frame `frame`.
+  const FrameDates& first_pass(std::size_t frame) const { return stage->frames()[frame * passes]; }
+  const FrameDates& last_pass(std::size_t frame) const { return stage->frames()[(frame + 1) * passes - 1]; }
 };
 
 /// The stereo pipeline, from the bursts of the three input ports to those of the output port: the stages, and
 /// the streams between them. This is the one place that knows which stage follows which.
 class Pipeline final : public sc_core::sc_module {
  public:
+  /// `map`: cut for the tiles (cut_map). `context` has the size of a tile.
   Pipeline(const sc_core::sc_module_name& name, const MachineConfig& config, const EncodedMap& map,
-           const StageContext& context);
+           const TilePlan& tiles, const StageContext& context);
 
   /// Binds the ports that bring the left image, the right image and the map in bursts, and the one that takes
   /// the results.
@@ -45,7 +53,7 @@ class Pipeline final : public sc_core::sc_module {
 
   OutputPackingStage& output() { return output_packing_; }
   /// The stage whose tokens are the final disparities.
-  const Stage& last_filter() const { return noise_reduction_; }
+  StageInfo last_filter() const;
   const Stage& matcher() const { return matching_; }
   std::vector<StageInfo> stages() const;
 
@@ -55,6 +63,7 @@ class Pipeline final : public sc_core::sc_module {
 
   const MachineConfig& config_;
   const StageContext context_;
+  const std::size_t tiles_;
 
   Unpacker<Gray> unpack_left_;
   Unpacker<Gray> unpack_right_;

@@ -14,22 +14,30 @@ namespace parallax {
 
 /// A frame for the core, by where its buffers lie in memory.
 struct CoreJob {
-  std::uint64_t left = 0;      ///< address of the left image, as the camera wrote it
-  std::uint64_t right = 0;     ///< likewise
-  bool values = true;          ///< false: timing only
-  std::function<void()> read;  ///< called when both images have been read
+  std::uint64_t left = 0;         ///< address of the left image, as the camera wrote it
+  std::uint64_t right = 0;        ///< likewise
+  bool values = true;             ///< false: timing only
+  std::uint64_t output = 0;       ///< address of the results
+  std::function<void()> read;     ///< called when both images have been read
+  std::function<void()> written;  ///< called when the results are in memory
 };
 
-/// The stereo core: the pipeline with the DMA engines of its memory ports left, right, map and output.
+/// What stays the same from frame to frame.
+struct CoreMap {
+  const TilePlan& tiles;
+  const EncodedMap& map;  ///< cut for the tiles
+  std::uint64_t address;  ///< of its bytes in memory
+};
+
+/// The stereo core: the pipeline with the DMA engines of its memory ports left, right, map and output. An
+/// image of several tiles is read, and its results are written, tile by tile, each row of a tile by itself.
 class StereoCore final : public sc_core::sc_module {
  public:
   StereoCore(const sc_core::sc_module_name& name, const MachineConfig& config, const MachineInput& input,
-             std::uint64_t map_address, const ClockDomain& clock, Dataflow& dataflow);
+             const CoreMap& map, const ClockDomain& clock, Dataflow& dataflow);
 
-  /// Queues a frame's input.
+  /// Queues a frame.
   void start(const CoreJob& job);
-  /// Queues the place of the next frame's results; `written` is called when they are in memory.
-  void start_output(std::uint64_t address, bool values, std::function<void()> written);
 
   Pipeline& pipeline() { return pipeline_; }
   const Pipeline& pipeline() const { return pipeline_; }
@@ -39,8 +47,11 @@ class StereoCore final : public sc_core::sc_module {
   BusMaster& output_master() { return dma_output_.master; }
 
  private:
+  void start_input(const CoreJob& job);
+  void start_output(const CoreJob& job);
+
   const MachineInput& input_;
-  const std::uint64_t map_address_;
+  const CoreMap map_;
   DmaReader dma_left_;
   DmaReader dma_right_;
   DmaReader dma_map_;

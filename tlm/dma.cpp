@@ -11,6 +11,10 @@ std::uint64_t DmaJob::bytes() const {
   return std::accumulate(row_bytes.begin(), row_bytes.end(), std::uint64_t{0});
 }
 
+std::uint64_t DmaJob::piece_bytes() const {
+  return pitch == 0 || row_bytes.empty() ? bytes() : row_bytes.front();
+}
+
 std::uint64_t burst_count(std::uint64_t bytes, Bytes burst) {
   const auto size = static_cast<std::uint64_t>(burst.count());
   return (bytes + size - 1) / size;
@@ -51,8 +55,13 @@ bool DmaEngine::have_burst() {
     jobs_.pop_front();
     bytes_ = job_.bytes();
     at_ = 0;
+    piece_ = job_.piece_bytes();
+    piece_end_ = piece_;
+    piece_address_ = job_.address;
     free_ = std::max(free_, clock_.now());
-    ends_.push_back({requested_ + burst_count(bytes_, Bytes(burst_)), std::move(job_.done), last_answer_});
+    const std::uint64_t pieces = piece_ == 0 ? 0 : bytes_ / piece_;
+    ends_.push_back(
+        {requested_ + pieces * burst_count(piece_, Bytes(burst_)), std::move(job_.done), last_answer_});
     finish_jobs();  // it may be without bytes
     job_begins();
   }
@@ -60,11 +69,15 @@ bool DmaEngine::have_burst() {
 }
 
 ::tlm::tlm_generic_payload& DmaEngine::take_payload(::tlm::tlm_command command) {
-  return master.pool().take(command, job_.address + first_byte(), last_byte() - first_byte(), job_.values);
+  return master.pool().take(command, piece_address_ + first_byte(), last_byte() - first_byte(), job_.values);
 }
 
 void DmaEngine::request(::tlm::tlm_generic_payload& payload, Cycles cycle) {
   at_ = last_byte();
+  if (at_ == piece_end_ && at_ < bytes_) {
+    piece_address_ += job_.pitch - piece_;
+    piece_end_ += piece_;
+  }
   ++requested_;
   request_cycle_ = cycle;
   request_time_ = clock_.time_of(cycle);
@@ -72,9 +85,7 @@ void DmaEngine::request(::tlm::tlm_generic_payload& payload, Cycles cycle) {
   master.send(payload, request_time_);
 }
 
-void DmaEngine::look_again(Cycles cycle) {
-  go_on_.notify(clock_.time_of(cycle) - sc_core::sc_time_stamp());
-}
+void DmaEngine::look_again(Cycles cycle) { go_on_.notify(clock_.time_of(cycle) - sc_core::sc_time_stamp()); }
 
 void DmaEngine::taken(const sc_core::sc_time& time) {
   const Cycles cycle = time == request_time_ ? request_cycle_ : clock_.cycle_at_or_after(time);
@@ -140,7 +151,7 @@ void DmaReader::send_rows(std::uint64_t until) {
   for (; row_ < job().row_bytes.size() && row_start_ < until; row_start_ += job().row_bytes[row_++]) {
     if (!job().values) continue;
     std::vector<std::uint8_t> bytes(job().row_bytes[row_]);
-    master.read_now(job().address + row_start_, bytes.data(), bytes.size());
+    master.read_now(job().row_address(row_, row_start_), bytes.data(), bytes.size());
     // In the engine, not here: it goes through all the kernels before any date of the row does.
     dataflow().post(
         [this, row_values = std::move(bytes)] { out_bursts.send_row(row_values.data(), row_values.size()); });

@@ -31,22 +31,31 @@ struct DmaEngineConfig {
   }
 };
 
-/// One transfer: rows of bytes that lie one after the other in memory.
+/// One transfer: rows of bytes in memory. They lie one after the other and are moved as one piece; or, with a
+/// pitch, each is a piece of its own: no burst crosses its end.
 struct DmaJob {
   std::uint64_t address = 0;             ///< of the first byte
   std::vector<std::uint32_t> row_bytes;  ///< length of each row
   bool values = true;                    ///< false: the traffic alone, for timing; no bytes are handed on
   std::function<void()> done;            ///< called when the last burst is answered
+  std::uint64_t pitch =
+      0;  ///< bytes from one row's begin to the next one's, the rows being equally long; or 0
 
   std::uint64_t bytes() const;
+  /// Bytes of a piece; the transfer's own where it is one piece.
+  std::uint64_t piece_bytes() const;
+  /// Of the first byte of row `row`, which begins with byte `byte` of the transfer.
+  std::uint64_t row_address(std::size_t row, std::uint64_t byte) const {
+    return pitch == 0 ? address + byte : address + row * pitch;
+  }
 };
 
-/// Bursts that a transfer of `bytes` takes, the last one perhaps shorter.
+/// Bursts that a piece of `bytes` takes, the last one perhaps shorter.
 std::uint64_t burst_count(std::uint64_t bytes, Bytes burst);
 
-/// What both engines are: a queue of jobs that are cut into bursts, and requests for them. Requests are sent ahead of
-/// their dates, as soon as these are known, and answers come in the present; so an engine is an actor among the
-/// dataflow's, and no kernel event is spent on a request.
+/// What both engines are: a queue of jobs that are cut into bursts, and requests for them. Requests are sent
+/// ahead of their dates, as soon as these are known, and answers come in the present; so an engine is an
+/// actor among the dataflow's, and no kernel event is spent on a request.
 class DmaEngine : public sc_core::sc_module, public Actor, private BusClient {
  public:
   BusMaster master;
@@ -60,7 +69,7 @@ class DmaEngine : public sc_core::sc_module, public Actor, private BusClient {
   /// The next burst to request: bytes first_byte() to last_byte() - 1 of job().
   const DmaJob& job() const { return job_; }
   std::uint64_t first_byte() const { return at_; }
-  std::uint64_t last_byte() const { return std::min(at_ + burst_, bytes_); }
+  std::uint64_t last_byte() const { return std::min(at_ + burst_, piece_end_); }
   /// First cycle in which the engine itself could request it.
   Cycles free() const { return free_; }
   void not_free_before(Cycles cycle) { free_ = std::max(free_, cycle); }
@@ -93,11 +102,14 @@ class DmaEngine : public sc_core::sc_module, public Actor, private BusClient {
   const ClockDomain& clock_;
   sc_core::sc_event go_on_;
   std::deque<DmaJob> jobs_;
-  DmaJob job_;               // under way
-  std::uint64_t bytes_ = 0;  // of it
-  std::uint64_t at_ = 0;     // bytes of it that have been requested
-  struct End {  // of a job
-    std::uint64_t answers;  // the last one's number
+  DmaJob job_;                       // under way
+  std::uint64_t bytes_ = 0;          // of it
+  std::uint64_t at_ = 0;             // bytes of it that have been requested
+  std::uint64_t piece_ = 0;          // bytes of a piece
+  std::uint64_t piece_end_ = 0;      // byte of the job at which the piece under way ends
+  std::uint64_t piece_address_ = 0;  // memory address less byte of the job, in this piece
+  struct End {                       // of a job
+    std::uint64_t answers;           // the last one's number
     std::function<void()> done;
     sc_core::sc_time time;  // of the last answer, once `answers` have come
   };

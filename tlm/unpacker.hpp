@@ -11,10 +11,11 @@ namespace parallax {
 
 /// How a frame's bytes are cut, on the memory's side and on the stage's.
 struct UnpackerConfig {
-  std::uint64_t frame_bytes = 0;
-  Bytes burst{128};     ///< an input token; the last one of a frame may be shorter
-  Bytes token{1};       ///< an output token; divides `burst`; the last one of a frame may be shorter
-  std::size_t row = 0;  ///< values a row; 0 = whatever is sent
+  std::uint64_t piece_bytes = 0;  ///< bytes that lie one after the other (DmaJob)
+  Bytes burst{128};               ///< an input token; the last one of a piece may be shorter
+  Bytes token{1};            ///< an output token; divides `burst`; the last one of a piece may be shorter
+  std::size_t row = 0;       ///< values a row; 0 = whatever is sent
+  std::uint64_t pieces = 1;  ///< of a frame
 };
 
 /// Bursts in, tokens out, one a cycle. The burst being cut lies in a register: its place in the FIFO is free
@@ -38,8 +39,10 @@ class Unpacker final : public Stage {
       return std::vector<Phase>{{1, 1, 0b1, 0b1}, {tokens(bytes) - 1, 1, 0, 0b1}};
     };
     Schedule schedule;
-    schedule.repeat(config.frame_bytes / burst, cut(burst));
-    if (config.frame_bytes % burst != 0) schedule.repeat(1, cut(config.frame_bytes % burst));
+    for (std::uint64_t piece = 0; piece < config.pieces; ++piece) {
+      schedule.repeat(config.piece_bytes / burst, cut(burst));
+      if (config.piece_bytes % burst != 0) schedule.repeat(1, cut(config.piece_bytes % burst));
+    }
     set_schedule(schedule);
     in_bursts.on_row(config.row, [this](const std::uint8_t* row, std::size_t size) {
       out_tokens.send_row(reinterpret_cast<const T*>(row), size);

@@ -10,7 +10,7 @@ void describe(Schema& schema, ClockConfig& config) {
   schema.integer(
       "clocks.core_hz", config.core_hz, kHertz, "Hz",
       "Clock of the pipeline from the map decoder to the output; the matcher starts one iteration a cycle.",
-      fitted("paper, table 1: 640x480 with 256 disparities at 70 fps needs at least 172.0 MHz"));
+      fitted("paper, table 1: 1280x960 with 256 disparities at 15 fps needs at least 184.3 MHz with tiles"));
   schema.integer("clocks.memory_hz", config.memory_hz, kHertz, "Hz",
                  "Clock of the memory bus. Bandwidth is this times memory.bytes_per_cycle.",
                  inferred("DDR3-1066 of a Zynq-7000-class platform: 533 MHz, two transfers a cycle"));

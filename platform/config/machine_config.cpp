@@ -11,6 +11,7 @@ void MachineConfig::validate() const {
   camera.validate();
   dma.validate();
   link.validate();
+  tiles.validate();
   rectification.validate();
   census.validate();
   matching.validate();
@@ -30,7 +31,9 @@ void describe(Schema& schema, MachineConfig& config) {
   describe(schema, config.memory);
   describe(schema, config.dma);
   describe(schema, config.link);
+  describe(schema, config.software);
   describe(schema, config.streams);
+  describe(schema, config.tiles);
 
   describe(schema, config.rectification);
   describe(schema, config.census);

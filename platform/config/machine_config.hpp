@@ -18,7 +18,9 @@
 #include "platform/config/link_config.hpp"
 #include "platform/config/memory_config.hpp"
 #include "platform/config/pipeline_timing.hpp"
+#include "platform/config/software_config.hpp"
 #include "platform/config/stream_config.hpp"
+#include "platform/config/tile_config.hpp"
 
 namespace parallax {
 
@@ -30,7 +32,9 @@ struct MachineConfig {
   MemoryConfig memory;
   DmaConfig dma;
   LinkConfig link;
+  SoftwareConfig software;
   StreamConfig streams;
+  TileConfig tiles;
 
   RectificationConfig rectification;
   CensusConfig census;

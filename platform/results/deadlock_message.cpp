@@ -43,7 +43,7 @@ std::string deadlock_message(const Machine& machine) {
     return "the machine stopped before the host had all frames; these wait:\n" + describe(dataflow.waits()) +
            "  no circle of streams holds it up, so no depth would free it\n";
   }
-  const auto frames = static_cast<std::uint64_t>(machine.input().frames);
+  const auto frames = static_cast<std::uint64_t>(machine.input().frames) * machine.tiles().tiles.size();
   return "the machine is deadlocked; nobody in this circle can go on:\n" + describe(circle) +
          hint(smallest_remedy(dataflow, frames));
 }

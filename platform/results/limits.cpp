@@ -97,10 +97,14 @@ std::vector<PartLoad> part_loads(const Machine& machine, const SteadyWindow& win
                      occupied.to_seconds() / places[port] / frames});
   }
 
+  if (!config.software.queue_frames) {
+    const double taken = (last.core - first.core).to_seconds();
+    loads.push_back({"core", "clocks.core_hz, software.response_ns", taken / elapsed, taken / frames});
+  }
   for (const StageInfo& info : machine.pipeline().stages()) {
-    const std::vector<FrameDates>& dates = info.stage->frames();
-    const Cycles frame(static_cast<std::int64_t>(info.stage->schedule().cycles()));
-    const Cycles whole = dates[window.last].first_firing - dates[window.first].first_firing;
+    const Cycles frame(static_cast<std::int64_t>(info.cycles_per_frame()));
+    const Cycles whole =
+        info.first_pass(window.last).first_firing - info.first_pass(window.first).first_firing;
     loads.push_back({info.stage->basename(), "clocks.core_hz",
                      ratio(frame * static_cast<std::int64_t>(window.frames()), whole),
                      info.stage->clock().seconds(frame)});

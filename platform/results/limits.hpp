@@ -42,7 +42,8 @@ struct PartLoad {
 };
 
 /// Every part that can be the limit, in the order in which data meets them: memory, cameras, DMA engines (the
-/// share of their requests that are under way), stages, link, host. Shares are taken between two dates of the
+/// share of their requests that are under way), core (with a frame, or about to be started with one; unless
+/// frames queue), stages, link, host. Shares are taken between two dates of the
 /// part's own clock and never exceed 1. The window must hold a frame.
 std::vector<PartLoad> part_loads(const Machine& machine, const SteadyWindow& window);
 

@@ -107,7 +107,7 @@ void add_memory(MetricGroup& root, const Machine& machine, const SteadyWindow& w
     group.add({"latency_largest", seconds(port.latency_largest) * 1e9, "ns",
                "From request to answer of a burst.", all});
   }
-  const EncodedMap& map = *machine.input().map;
+  const EncodedMap& map = machine.map();
   memory.group("map").add({"bytes_per_pixel_and_image", map.bytes_per_pixel(), "B",
                            "Compressed size of the rectification map by pixels of both images.", ""});
   memory.add({"bandwidth", total / 1e6, "MB/s", "Of all ports together.", window.text});
@@ -190,12 +190,12 @@ void add_pipeline(MetricGroup& root, const Machine& machine, const SteadyWindow&
   MetricGroup& stages = root.group("stages");
   for (const StageInfo& info : machine.pipeline().stages()) {
     MetricGroup& group = stages.group(info.stage->basename());
-    const double cycles = static_cast<double>(info.stage->schedule().cycles());
+    const double cycles = static_cast<double>(info.cycles_per_frame());
     group.add({"cycles_per_frame", cycles, "cycles",
                "Cycles of a frame without any wait, by the declared intervals.", ""});
     group.add(
         {"utilisation", 100.0 * share_of(loads, info.stage->basename()), "%", "Of the time.", window.text});
-    add_stage_time(group, stage_time(*info.stage, window), window.frames() == 0 ? all : window.text);
+    add_stage_time(group, stage_time(info, window), window.frames() == 0 ? all : window.text);
     group.add({"storage", info.storage.count(), "bit", "Line buffers and the like, without FIFOs.", ""});
   }
   MetricGroup& streams = root.group("streams");

@@ -6,13 +6,13 @@
 
 namespace parallax {
 
-StageTime stage_time(const Stage& stage, const SteadyWindow& window) {
+StageTime stage_time(const StageInfo& info, const SteadyWindow& window) {
   if (window.frames() == 0) {
-    const StageStatistics& all = stage.statistics();
+    const StageStatistics& all = info.stage->statistics();
     return {all.total(), all.busy, all.starved, all.blocked, all.memory, all.blanking};
   }
-  const FrameDates& first = stage.frames()[window.first];
-  const FrameDates& last = stage.frames()[window.last];
+  const FrameDates& first = info.first_pass(window.first);
+  const FrameDates& last = info.first_pass(window.last);
   const StageStatistics& from = first.before;
   const StageStatistics& to = last.before;
   return {last.first_firing - first.first_firing,

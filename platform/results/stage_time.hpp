@@ -21,7 +21,7 @@ struct StageTime {
 
 /// Of the window's frames, from a stage's first firing for one frame to that for another; of the whole run
 /// when the window holds no frame.
-StageTime stage_time(const Stage& stage, const SteadyWindow& window);
+StageTime stage_time(const StageInfo& info, const SteadyWindow& window);
 
 /// The parts (>= 0) as shares of their sum, in tenths of a percent, rounded so that they sum to exactly 1000:
 /// those with the largest remainders are rounded up, of equal ones the first. All 0 if the sum is.

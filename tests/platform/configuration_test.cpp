@@ -73,7 +73,7 @@ TEST(ShippedPresets, EveryValueCarriesTagAndSource) {
 
 TEST(Configuration, HasThePublishedMachineByDefault) {
   const MachineConfig machine = load({}).machine;
-  EXPECT_EQ(machine.clocks.core_hz, 175'000'000);
+  EXPECT_EQ(machine.clocks.core_hz, 188'000'000);
   EXPECT_EQ(machine.matching.range().count, 128);
   EXPECT_EQ(machine.matching.p2, 42);
   EXPECT_EQ(machine.link.host_pixel_rate, 30'800'000);

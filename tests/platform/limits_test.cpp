@@ -36,11 +36,19 @@ TEST_F(Limits, TheLimitingPartIsNamed) {
   EXPECT_EQ(limit(run("--size 64x48 --set link.line_rate=1e6")), "link");
   EXPECT_EQ(limit(run("--size 64x48 --set clocks.camera_hz=1e6")), "camera");
   EXPECT_EQ(limit(run("--size 64x48 --set camera.frame_rate=30")), "camera_frame_rate");
-  EXPECT_EQ(limit(run("--size 64x48 --set memory.bytes_per_cycle=1 --set clocks.memory_hz=20e6")), "memory");
-  EXPECT_EQ(limit(run("--size 256x192 --disparities 256 --set link.host_pixel_rate=0")), "matching");
-  EXPECT_EQ(limit(run("--size 64x48 --set dma.left.burst_bytes=8 --set dma.left.outstanding=1 "
-                      "--set memory.latency_cycles=2000 --set link.host_pixel_rate=0")),
-            "dma_left");
+  EXPECT_EQ(limit(run("--size 64x48 --set memory.bytes_per_cycle=1 --set clocks.memory_hz=20e6 "
+                      "--set software.queue_frames=true")),
+            "memory");
+  EXPECT_EQ(limit(run("--size 256x192 --disparities 256 --set link.host_pixel_rate=0")), "core");
+  EXPECT_EQ(
+      limit(run(
+          "--size 256x192 --disparities 256 --set link.host_pixel_rate=0 --set software.queue_frames=true")),
+      "matching");
+  EXPECT_EQ(
+      limit(run(
+          "--size 64x48 --set dma.left.burst_bytes=8 --set dma.left.outstanding=1 "
+          "--set memory.latency_cycles=2000 --set link.host_pixel_rate=0 --set software.queue_frames=true")),
+      "dma_left");
   const nlohmann::json buffers = run("--size 64x48 --set camera.frame_buffers=1 --set link.output_buffers=1");
   EXPECT_EQ(limit(buffers), "none");
   EXPECT_NE(buffers["limit"]["key"]["value"].get<std::string>().find("camera.frame_buffers"),

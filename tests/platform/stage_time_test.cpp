@@ -108,7 +108,9 @@ TEST_F(StageReport, SlowMemoryShowsAsWaitingForMemoryAndOverheadAsBlanking) {
   };
   const nlohmann::json slow = run("--size 96x64 --set memory.bytes_per_cycle=1 --set clocks.memory_hz=20e6");
   EXPECT_GT(share(slow, "unpack_left", "memory_share"), 10);
-  const nlohmann::json idle = run("--size 96x64 --set link.host_pixel_rate=0 --set census.row_overhead=1000");
+  const nlohmann::json idle =
+      run("--size 96x64 --set link.host_pixel_rate=0 --set census.row_overhead=1000 "
+          "--set software.queue_frames=true");
   EXPECT_GT(share(idle, "census", "blanking_share"), 50);
   EXPECT_EQ(share(idle, "census", "memory_share"), 0);
 }

@@ -104,7 +104,7 @@ TEST_F(Evaluator, AMachineThatGetsStuckSaysWhoWaits) {
   EXPECT_EQ(result.status, Status::kStuck);
   EXPECT_EQ(result.message.rfind("the machine is deadlocked; nobody in this circle can go on:\n", 0), 0U)
       << result.message;
-  EXPECT_NE(result.message.find("machine.pipeline.left_texture (full, depth 8)"), std::string::npos)
+  EXPECT_NE(result.message.find("machine.core.pipeline.left_texture (full, depth 8)"), std::string::npos)
       << result.message;
   EXPECT_TRUE(result.metrics.is_null());
 }

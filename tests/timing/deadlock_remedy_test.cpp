@@ -205,7 +205,9 @@ RC_GTEST_PROP(DeadlockRemedy, AutomaticDepthsNeedNone, ()) {
         &time.consistency, &time.texture, &time.speckle, &time.gap_interpolation, &time.noise_reduction}) {
     if (number(0, 3) == 0) timing->latency = count(0, 1000);
   }
-  c.map = encode(identity_map(width, height, config.rectification.range));
+  c.tiles = random_tiles(width, 3);
+  const int rows = height * static_cast<int>(c.tiles.tiles.size());
+  c.map = encode(identity_map(width, rows, config.rectification.range));
   const std::string needed = in_child([&] {
     PipelineSimulation simulation(c);
     sc_core::sc_start(sc_core::SC_ZERO_TIME);
@@ -226,7 +228,7 @@ class LargeMachine : public testing::TestWithParam<Large> {
   /// What `action` returns for the machine, stuck or through with one frame, when the stream has that depth.
   template <class Action>
   std::string run(std::uint32_t tokens, const Action& action) {
-    MachineConfig config = preset({"matching.iterations=8"});
+    MachineConfig config = preset({"matching.iterations=8", "tiles.limit=1856"});
     for (StreamDepth& stream : config.streams.depths) {
       if (stream.name == GetParam().stream) stream.tokens = tokens;
     }

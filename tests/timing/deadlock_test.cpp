@@ -211,8 +211,8 @@ TEST(Deadlock, TheProgramNamesItAndFails) {
   EXPECT_NE(ended.text.find("parallax: error: the machine is deadlocked"), std::string::npos) << ended.text;
   EXPECT_NE(
       ended.text.find(
-          "machine.pipeline.rectification waits on stream machine.pipeline.left_texture (full, depth 64) "
-          "for machine.pipeline.texture\n"),
+          "machine.core.pipeline.rectification waits on stream machine.core.pipeline.left_texture (full, depth 64) "
+          "for machine.core.pipeline.texture\n"),
       std::string::npos)
       << ended.text;
   EXPECT_NE(ended.text.find("\n  streams.left_texture.depth = 128 would free it (now 64)\n"),

@@ -37,6 +37,8 @@ inline MachineConfig pipeline_alone(MachineConfig config) {
   config.dma.camera.burst_bytes = 1024;
   config.dma.camera.fifo_bytes = 65536;
   config.link.enabled = false;
+  config.software.response_ns = 0;
+  config.software.queue_frames = true;
   return config;
 }
 

@@ -72,9 +72,9 @@ RC_GTEST_PROP(PipelineReference, EveryDateWithAnyDepthsAndTheSameDeadlocks, ()) 
 }
 
 // Where nobody stalls, deeper FIFOs on the paths that meet again would not let a frame leave any earlier.
-// (They could let the next one begin while this one is flushed.)
+// (They could let the next one, or the next tile, begin while this one is flushed.)
 RC_GTEST_PROP(PipelineReference, AutomaticDepthsCostNoCycle, ()) {
-  PipelineCase c = random_pipeline(Depths::kAutomatic, 1);
+  PipelineCase c = random_pipeline(Depths::kAutomatic, 1, 1, 1);
   // A token a cycle needs places for the way there and back.
   c.config.streams.default_depth =
       std::max(2 * (1 + c.config.streams.synchroniser_stages), c.config.streams.default_depth);

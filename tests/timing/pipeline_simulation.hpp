@@ -19,23 +19,30 @@ namespace parallax::test {
 /// A pipeline and what its four ends do: for each burst, the cycles that the thread waits before it.
 struct PipelineCase {
   MachineConfig config;
-  EncodedMap map;
+  EncodedMap map;  ///< cut for the tiles
+  TilePlan tiles;
   std::vector<std::uint32_t> left, right, map_stalls, output;
+
+  int height() const { return map.height / static_cast<int>(tiles.tiles.size()); }
 };
 
 /// Bursts of one frame at the four ends.
 struct PipelineBursts {
-  PipelineBursts(const MachineConfig& config, const EncodedMap& encoded)
-      : left(burst_count(pixels(encoded), Bytes(config.dma.left.burst_bytes))),
-        right(burst_count(pixels(encoded), Bytes(config.dma.right.burst_bytes))),
-        map(burst_count(encoded.bytes.size(), Bytes(config.dma.map.burst_bytes))),
-        output(
-            burst_count(OutputPacking::row_bytes(encoded.width) * static_cast<std::uint64_t>(encoded.height),
-                        Bytes(config.dma.output.burst_bytes))) {}
-  static std::uint64_t pixels(const EncodedMap& map) {
-    return static_cast<std::uint64_t>(map.width) * static_cast<std::uint64_t>(map.height);
+  explicit PipelineBursts(const PipelineCase& c)
+      : map(burst_count(c.map.bytes.size(), Bytes(c.config.dma.map.burst_bytes))) {
+    const auto rows = static_cast<std::uint64_t>(c.height());
+    const bool apart = c.tiles.tiles.size() > 1;
+    const auto bursts = [&](std::uint64_t row_bytes, const DmaPortConfig& port) {
+      const Bytes burst(port.burst_bytes);
+      return apart ? rows * burst_count(row_bytes, burst) : burst_count(rows * row_bytes, burst);
+    };
+    for (const Tile& tile : c.tiles.tiles) {
+      left += bursts(static_cast<std::uint64_t>(c.tiles.width), c.config.dma.left);
+      right += bursts(static_cast<std::uint64_t>(c.tiles.width), c.config.dma.right);
+      output += bursts(OutputPacking::row_bytes(tile.keep_end - tile.keep_begin), c.config.dma.output);
+    }
   }
-  std::uint64_t left, right, map, output;
+  std::uint64_t left = 0, right = 0, map, output = 0;
 };
 
 class PipelineSimulation {
@@ -44,7 +51,8 @@ class PipelineSimulation {
       : case_(c),
         clock_("core", Hertz(c.config.clocks.core_hz)),
         dataflow_("dataflow", leap_interval),
-        pipeline_("pipeline", case_.config, case_.map, {clock_, dataflow_, c.map.width, c.map.height}),
+        pipeline_("pipeline", case_.config, case_.map, c.tiles,
+                  {clock_, dataflow_, c.tiles.width, c.height()}),
         left_node_(end(GraphNode::Kind::kSource, c.left)),
         right_node_(end(GraphNode::Kind::kSource, c.right)),
         map_node_(end(GraphNode::Kind::kSource, c.map_stalls)),

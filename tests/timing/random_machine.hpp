@@ -54,7 +54,7 @@ inline MachineCase random_machine(std::uint32_t seed, Contention contention) {
               {"camera.bytes_per_second", number(20, 500) * 1'000'000ll},
               {"link.line_rate", number(100, 2000) * 1'000'000ll},
               {"link.host_pixel_rate", number(1, 60) * 1'000'000ll}};
-  c.others = {"rectification.window=9"};
+  c.others = {"rectification.window=9", "software.response_ns=0"};
   const auto set = [&c](const std::string& key, int value) {
     c.others.push_back(fmt::format("{}={}", key, value));
   };
@@ -77,6 +77,15 @@ inline MachineCase random_machine(std::uint32_t seed, Contention contention) {
     set("memory.queue_depth", number(1, 4));
     c.others.push_back(number(0, 2) == 0 ? "memory.arbitration=fixed_priority"
                                          : "memory.arbitration=round_robin");
+  }
+  if (number(0, 1) == 0) c.others.emplace_back("software.queue_frames=true");
+  if (number(0, 2) == 0) {
+    const int left = 2 * number(0, 3);
+    const int right = 2 * number(0, 3);
+    c.others.emplace_back("tiles.disparities_in_margin=false");
+    set("tiles.left_margin", left);
+    set("tiles.right_margin", right);
+    set("tiles.limit", std::max({8, (c.width + left + right + 1) / 2, left + right + 2}));
   }
   return c;
 }

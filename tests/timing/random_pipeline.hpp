@@ -44,8 +44,20 @@ inline DmaPortConfig random_port() {
   return port;
 }
 
-/// `frames` frames of a small image, `larger` times as wide and high.
-inline PipelineCase random_pipeline(Depths depths, std::uint64_t frames, int larger = 1) {
+/// Tiles of one width that keep columns as they please.
+inline TilePlan random_tiles(int width, int most) {
+  TilePlan plan = one_tile(width);
+  if (width < 2 || most < 2 || number(0, 2) != 0) return plan;
+  plan.tiles.clear();
+  for (int i = number(2, most); i > 0; --i) {
+    const int begin = 2 * number(0, width / 2 - 1);
+    plan.tiles.push_back({0, begin, begin + 2 * number(1, (width - begin) / 2)});
+  }
+  return plan;
+}
+
+/// `frames` frames of a small image, `larger` times as wide and high, in tiles.
+inline PipelineCase random_pipeline(Depths depths, std::uint64_t frames, int larger = 1, int most_tiles = 3) {
   PipelineCase c;
   MachineConfig& config = c.config;
   const int width = number(1, 48) * larger;
@@ -88,12 +100,14 @@ inline PipelineCase random_pipeline(Depths depths, std::uint64_t frames, int lar
       if (number(0, 4) == 0) stream.tokens = count(1, number(0, 1) == 0 ? 20 : 400);
     }
   }
+  c.tiles = random_tiles(width, most_tiles);
+  const int rows = height * static_cast<int>(c.tiles.tiles.size());
   const OffsetRange& range = config.rectification.range;
   const int lens = number(0, 2);
-  c.map = encode(lens == 0   ? identity_map(width, height, range)
-                 : lens == 1 ? lens_map(width, height, range)
-                             : noise_map(width, height, range, count(1, 1000000)));
-  const PipelineBursts bursts(config, c.map);
+  c.map = encode(lens == 0   ? identity_map(width, rows, range)
+                 : lens == 1 ? lens_map(width, rows, range)
+                             : noise_map(width, rows, range, count(1, 1000000)));
+  const PipelineBursts bursts(c);
   c.left = random_stalls(frames * bursts.left);
   c.right = random_stalls(frames * bursts.right);
   c.map_stalls = random_stalls(frames * bursts.map);

@@ -145,7 +145,8 @@ TEST(DmaReader, IsOccupiedWhileRequestsAreUnderWay) {
       for (std::size_t i = 0; i < requested.size(); ++i) {
         halves += std::clamp(half, 2 * requested[i], 2 * answered[i]) - 2 * requested[i];
       }
-      EXPECT_EQ(b.reader.master.occupied(), sc_core::sc_time(5.0 * static_cast<double>(halves), sc_core::SC_NS))
+      EXPECT_EQ(b.reader.master.occupied(),
+                sc_core::sc_time(5.0 * static_cast<double>(halves), sc_core::SC_NS))
           << half << " half cycles";
     }
   });
@@ -224,6 +225,31 @@ TEST(DmaReader, BringsTheBytesOfSeveralJobs) {
   EXPECT_EQ(done, std::vector<std::string>({"first", "empty", "second", "third"}));
   EXPECT_EQ(b.dates.read.size(), 7u);
   EXPECT_EQ(b.reader.master.in_flight(), 0u);
+}
+
+TEST(DmaReader, RowsWithAPitchArePiecesOfTheirOwn) {
+  ReaderBench<Memory> b(engine(32, 4, 4), 3 * 2 + 1, 0, plain_memory(), memory_clock());
+  const Values bytes = pattern(1 << 16);
+  Thread filling("filling", [&] {
+    ::tlm::tlm_generic_payload payload;
+    Values copy = bytes;
+    payload.set_command(::tlm::TLM_WRITE_COMMAND);
+    payload.set_data_ptr(copy.data());
+    payload.set_data_length(1 << 16);
+    payload.set_streaming_width(1 << 16);
+    b.reader.master.socket->transport_dbg(payload);
+    b.reader.start({1000, {40, 40, 40}, true, nullptr, 300});  // each 32 + 8
+    b.reader.start({7, {32}, true, nullptr});
+  });
+  sc_core::sc_start();
+  Values expected;
+  for (const int begin : {1000, 1300, 1600}) {
+    expected.insert(expected.end(), bytes.begin() + begin, bytes.begin() + begin + 40);
+  }
+  expected.insert(expected.end(), bytes.begin() + 7, bytes.begin() + 39);
+  EXPECT_EQ(b.sink.values, expected);
+  EXPECT_EQ(b.dates.read.size(), 7u);
+  EXPECT_EQ(b.memory.statistics(0).read_bytes, 3u * 40 + 32);
 }
 
 TEST(DmaReader, AnErrorOfTheMemoryIsReported) {
