@@ -14,6 +14,7 @@
 #include "platform/commands/command_context.hpp"
 #include "platform/commands/config_command.hpp"
 #include "platform/commands/map_command.hpp"
+#include "platform/commands/memory_command.hpp"
 #include "platform/commands/run_command.hpp"
 #include "platform/commands/scene_command.hpp"
 #include "platform/config/nearest_name.hpp"
@@ -124,6 +125,7 @@ int run_command_line(int argc, const char* const* argv, std::ostream& out, std::
   add_config_command(app, context);
   add_map_command(app, context);
   add_scene_command(app, context);
+  add_memory_command(app, context);
 
   try {
     if (parse(app, argc, argv, out)) return 0;

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "platform/commands/memory_command.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "platform/commands/command_context.hpp"
+#include "platform/config/dram_device.hpp"
+#include "platform/config/preset.hpp"
+#include "platform/input/address_trace.hpp"
+#include "tlm/dram_replay.hpp"
+#include "tlm/error.hpp"
+#include "traces/metrics.hpp"
+
+namespace parallax {
+namespace {
+
+struct MemoryOptions {
+  std::string trace;
+  std::string config;
+  std::string mapping = "rbc";
+  std::int64_t window = 16;
+  std::int64_t efficiency = 100;
+  bool no_refresh = false;
+  bool json = false;
+};
+
+const std::map<std::string, DramMapping>& mappings() {
+  static const std::map<std::string, DramMapping> all{{"rbc", DramMapping::kRowBankColumn},
+                                                      {"brc", DramMapping::kBankRowColumn},
+                                                      {"rbcg", DramMapping::kRowBankColumnGroup}};
+  return all;
+}
+
+MetricGroup measure(const ReplayResult& result, const DramTiming& timing) {
+  const double seconds =
+      static_cast<double>(result.clocks) * static_cast<double>(timing.clock_period_ps) * 1e-12;
+  const double rate = static_cast<double>(result.bytes) / seconds;
+  const DramStatistics& commands = result.commands;
+  const auto count = [](std::uint64_t value) { return static_cast<std::int64_t>(value); };
+  MetricGroup group;
+  const auto add = [&group](const char* name, auto value, const char* unit, const char* description) {
+    group.add({name, value, unit, description, "the whole trace"});
+  };
+  add("frac_peak", rate / timing.peak_bandwidth(), "",
+      "Bytes on the data bus by the time of the last data beat, as a part of the peak bandwidth.");
+  add("bandwidth", rate / 1e6, "MB/s", "Bytes on the data bus by the time of the last data beat.");
+  add("peak_bandwidth", timing.peak_bandwidth() / 1e6, "MB/s", "Of the data bus without a pause.");
+  add("rd_lat_avg", result.reads == 0 ? 0.0 : result.latency_sum / static_cast<double>(result.reads), "ns",
+      "Mean latency of a read of 64 bytes, to its last data beat: from its acceptance when all times in the "
+      "trace are 0, "
+      "else from its time.");
+  add("rd_lat_max", result.latency_largest, "ns", "The longest such latency.");
+  add("row_hit_burst",
+      1.0 - static_cast<double>(commands.activates) / static_cast<double>(commands.reads + commands.writes),
+      "", "1 less activates by bursts.");
+  add("reads", count(result.reads), "requests", "Of 64 bytes or the part of one.");
+  add("writes", count(result.writes), "requests", "Of 64 bytes or the part of one.");
+  add("bursts", count(commands.reads + commands.writes), "bursts", "Read and write commands.");
+  add("activates", count(commands.activates), "commands", "Rows opened.");
+  add("precharges", count(commands.precharges), "commands", "Of one bank or of all.");
+  add("refreshes", count(commands.refreshes), "commands", "Of all banks.");
+  add("turn_arounds", count(commands.turn_arounds), "",
+      "Changes between reading and writing on the data bus.");
+  add("time", seconds * 1e6, "us", "Until the last data beat is over.");
+  return group;
+}
+
+std::string text(const MetricGroup& group) {
+  std::string lines;
+  for (const Metric& metric : group.metrics) {
+    const std::string value = std::holds_alternative<double>(metric.value)
+                                  ? fmt::format("{:.4f}", std::get<double>(metric.value))
+                                  : fmt::format("{}", std::get<std::int64_t>(metric.value));
+    lines +=
+        fmt::format("{:16} {:>14}{}{}\n", metric.name, value, metric.unit.empty() ? "" : " ", metric.unit);
+  }
+  return lines;
+}
+
+int replay_trace(const MemoryOptions& options, CommandContext& context) {
+  const auto within = [](const char* option, std::int64_t value, std::int64_t least, std::int64_t most) {
+    if (value < least || value > most) {
+      throw UserError(fmt::format("{} is {}, allowed is {} to {}", option, value, least, most));
+    }
+  };
+  within("--window", options.window, 1, 1'000'000);
+  within("--efficiency", options.efficiency, 1, 100);
+  const auto mapping = mappings().find(options.mapping);
+  if (mapping == mappings().end()) {
+    throw UserError(fmt::format("--mapping is '{}', expected rbc, brc or rbcg", options.mapping));
+  }
+  DramTiming timing = load_dram_device(options.config, preset_folders());
+  if (options.no_refresh) timing.refi = 0;
+  DramPolicy policy;
+  policy.efficiency = options.efficiency;
+  const ReplayResult result = replay(read_address_trace(options.trace), timing, policy, mapping->second,
+                                     static_cast<std::size_t>(options.window));
+  const MetricGroup metrics = measure(result, timing);
+  if (options.json) {
+    context.out << to_json(metrics).dump(2) << '\n';
+  } else if (context.verbosity != Verbosity::kQuiet) {
+    context.out << text(metrics);
+  }
+  return 0;
+}
+
+}  // namespace
+
+void add_memory_command(CLI::App& app, CommandContext& context) {
+  const auto options = std::make_shared<MemoryOptions>();
+  CLI::App& command = *app.add_subcommand("memory", "Replay an address trace against the DRAM model alone");
+  command.add_option("trace", options->trace, "CSV, plain or gzip: time_ns,rw,addr,bytes")->required();
+  command.add_option("--config", options->config, "DRAM device: a name such as ddr3-1066-x32, or a file")
+      ->required();
+  command.add_option("--window", options->window, "Reads of 64 bytes under way at most")
+      ->capture_default_str();
+  command
+      .add_option("--mapping", options->mapping,
+                  "Address bits from high to low: rbc (row, bank, column), brc, or rbcg (bursts go to the "
+                  "bank groups "
+                  "in turn)")
+      ->capture_default_str();
+  command
+      .add_option("--efficiency", options->efficiency, "Percent of the time that column commands may take")
+      ->capture_default_str();
+  command.add_flag("--no-refresh", options->no_refresh, "Leave out refreshes");
+  command.add_flag("--json", options->json, "Print the numbers as JSON, with unit and description");
+  command.callback([options, &context] {
+    context.action = [options, &context] { return replay_trace(*options, context); };
+  });
+}
+
+}  // namespace parallax

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "platform/commands/cli.hpp"
+#include "platform/config/dram_device.hpp"
+#include "platform/config/preset.hpp"
+#include "platform/input/address_trace.hpp"
+#include "tests/platform/error_of.hpp"
+#include "tests/platform/temporary_folder.hpp"
+#include "tlm/error.hpp"
+
+namespace parallax {
+namespace {
+
+struct Outcome {
+  int code;
+  std::string out;
+  std::string err;
+};
+
+Outcome run(std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), {"parallax", "memory"});
+  std::vector<const char*> argv;
+  for (const std::string& argument : arguments) argv.push_back(argument.c_str());
+  std::ostringstream out, err;
+  const int code = run_command_line(static_cast<int>(argv.size()), argv.data(), out, err);
+  return {code, out.str(), err.str()};
+}
+
+class MemoryCommand : public testing::Test {
+ protected:
+  std::string write(const std::string& text, const std::string& name = "t.csv") {
+    std::ofstream(folder_ / name) << text;
+    return folder_ / name;
+  }
+  std::string complaint(const std::string& text) {
+    const std::string path = write(text);
+    const std::string line = error_of([&] { read_address_trace(path); });
+    return line.rfind(path, 0) == 0 ? line.substr(path.size()) : line;
+  }
+  const TemporaryFolder folder_;
+};
+
+TEST_F(MemoryCommand, PrintsTextAndJson) {
+  const std::string trace = write("time_ns,rw,addr,bytes\n0,R,0x0,64\n0,R,64,64\r\n\n0,W,0x100000,32\n");
+  const Outcome text = run({trace, "--config", "ddr3-1066-x32"});
+  EXPECT_EQ(text.code, 0) << text.err;
+  EXPECT_NE(text.out.find("frac_peak"), std::string::npos);
+  const Outcome json = run({trace, "--config", "ddr3-1066-x32", "--json", "--no-refresh"});
+  const auto tree = nlohmann::json::parse(json.out);
+  EXPECT_EQ(tree["bursts"]["value"], 5);
+  EXPECT_EQ(tree["refreshes"]["value"], 0);
+  EXPECT_EQ(tree["rd_lat_avg"]["unit"], "ns");
+  EXPECT_FALSE(tree["row_hit_burst"]["description"].get<std::string>().empty());
+  EXPECT_EQ(run({trace, "--config", "ddr3-1066-x32", "-q"}).out, "");
+}
+
+TEST_F(MemoryCommand, EveryDeviceMovesDataAtLessThanItsPeak) {
+  std::string text = "time_ns,rw,addr,bytes\n";
+  for (int i = 0; i < 2000; ++i)
+    text += "0," + std::string(i % 3 == 0 ? "W" : "R") + "," + std::to_string(i * 64) + ",64\n";
+  const std::string trace = write(text);
+  for (const char* device : {"ddr3-1066-x32", "ddr3-1600-x64", "ddr4-2400-x64", "lpddr4-3200-x32"}) {
+    for (const char* mapping : {"rbc", "brc", "rbcg"}) {
+      const Outcome outcome = run({trace, "--config", device, "--mapping", mapping, "--json"});
+      ASSERT_EQ(outcome.code, 0) << outcome.err;
+      const double part = nlohmann::json::parse(outcome.out)["frac_peak"]["value"];
+      EXPECT_GT(part, 0.3) << device;
+      EXPECT_LT(part, 1.0) << device;
+    }
+  }
+}
+
+TEST_F(MemoryCommand, TracesThatAreNone) {
+  EXPECT_EQ(complaint("time,rw\n"), ":1: expected the line 'time_ns,rw,addr,bytes'");
+  EXPECT_EQ(complaint(""), ": holds no request");
+  const auto line = [&](const std::string& request) {
+    return complaint("time_ns,rw,addr,bytes\n0,R,0,64\n" + request + "\n");
+  };
+  EXPECT_EQ(line("0,R,0"), ":3: expected four fields, time_ns,rw,addr,bytes");
+  EXPECT_EQ(line("0,R,0,64,1"), ":3: expected four fields, time_ns,rw,addr,bytes");
+  EXPECT_EQ(line("0,R,0,64,"), ":3: expected four fields, time_ns,rw,addr,bytes");
+  EXPECT_EQ(line("soon,R,0,64"), ":3: time_ns is 'soon', expected a number from 0 to 1000000000000000");
+  EXPECT_EQ(line("-1,R,0,64"), ":3: time_ns is '-1', expected a number from 0 to 1000000000000000");
+  EXPECT_EQ(line("0,X,0,64"), ":3: rw is 'X', expected R or W");
+  EXPECT_EQ(line("0,R,0xg,64"), ":3: addr is '0xg', expected an address such as 0x1000");
+  EXPECT_EQ(line("0,R,-5,64"), ":3: addr is '-5', expected an address such as 0x1000");
+  EXPECT_EQ(line("0,R,0,0"), ":3: bytes is '0', expected a number from 1 to 1048576");
+  EXPECT_EQ(line("0,R,0,1048577"), ":3: bytes is '1048577', expected a number from 1 to 1048576");
+  EXPECT_EQ(complaint("time_ns,rw,addr,bytes\n5,R,0,64\n4,R,0,64\n"),
+            ":3: time_ns is 4, before 5 of an earlier line");
+  EXPECT_EQ(error_of([&] { read_address_trace(folder_ / "none.csv"); }),
+            (folder_ / "none.csv") + ": cannot be read: No such file or directory");
+  EXPECT_EQ(error_of([&] { read_address_trace(folder_.path()); }),
+            folder_.path().string() + ": cannot be read: Is a directory");
+}
+
+TEST_F(MemoryCommand, OptionsOutOfRange) {
+  const std::string trace = write("time_ns,rw,addr,bytes\n0,R,0x0,64\n");
+  const auto error = [&](std::vector<std::string> options) {
+    options.insert(options.begin(), trace);
+    const Outcome outcome = run(options);
+    EXPECT_EQ(outcome.code, 2);
+    EXPECT_EQ(outcome.out, "");
+    return outcome.err;
+  };
+  EXPECT_EQ(error({"--config", "ddr3-1066-x32", "--window", "0"}),
+            "parallax: error: --window is 0, allowed is 1 to 1000000\n");
+  EXPECT_EQ(error({"--config", "ddr3-1066-x32", "--efficiency", "101"}),
+            "parallax: error: --efficiency is 101, allowed is 1 to 100\n");
+  EXPECT_EQ(error({"--config", "ddr3-1066-x32", "--mapping", "cbr"}),
+            "parallax: error: --mapping is 'cbr', expected rbc, brc or rbcg\n");
+  EXPECT_NE(error({"--config", "ddr3-1066-x23"}).find("the nearest is ddr3-1066-x32"), std::string::npos);
+}
+
+TEST_F(MemoryCommand, ADeviceOfOnesOwn) {
+  const std::string device =
+      write("description = \"slow\"\ninherits = \"ddr3-1066-x32\"\n[dram]\ncl = 9\n", "slow.toml");
+  EXPECT_EQ(load_dram_device(device, {PARALLAX_SOURCE_DIR "/platform/presets"}).cl, 9);
+  const std::string wrong = write("description = \"\"\n[dram]\ntCL = 9\n", "wrong.toml");
+  EXPECT_NE(error_of([&] { load_dram_device(wrong, {}); }).find("dram.tCL"), std::string::npos);
+  DramTiming timing;
+  const auto complaint = [&timing](auto change) {
+    timing = {};
+    change(timing);
+    return error_of([&] { validate(timing); });
+  };
+  EXPECT_EQ(complaint([](DramTiming& t) { t.burst_length = 7; }),
+            "dram.burst_length = 7: must be even, data moves twice a clock");
+  EXPECT_EQ(complaint([](DramTiming& t) { t.columns = 1001; }),
+            "dram.columns = 1001: must be a multiple of dram.burst_length = 8");
+  EXPECT_EQ(complaint([](DramTiming& t) { t.bank_groups = 3; }),
+            "dram.bank_groups = 3: must divide dram.banks = 8");
+  EXPECT_EQ(complaint([](DramTiming& t) { t.ccd = 3; }),
+            "dram.ccd = 3: must be at least 4, half of dram.burst_length");
+  EXPECT_EQ(complaint([](DramTiming& t) { t.refi = 146; }),
+            "dram.refi = 146: must be 0 or more than dram.rfc + dram.rp_all = 146");
+  EXPECT_EQ(complaint([](DramTiming&) {}), "(no error)");
+}
+
+// The median of three public cycle-accurate simulators, where the reference is there.
+TEST(MemoryReference, BandwidthLatencyAndRowHits) {
+  const std::string folder = PARALLAX_SOURCE_DIR "/../shared/data/dram/";
+  std::ifstream reference(folder + "reference.csv");
+  if (!reference) GTEST_SKIP() << "no reference data";
+  const std::map<std::string, const char*> devices{{"x32", "ddr3-1066-x32"}, {"x64", "ddr3-1600-x64"}};
+  std::string line;
+  std::getline(reference, line);
+  int rows = 0;
+  while (std::getline(reference, line)) {
+    std::istringstream in(line);
+    std::vector<std::string> fields;
+    for (std::string field; std::getline(in, field, ',');) fields.push_back(field);
+    const DramTiming timing =
+        load_dram_device(devices.at(fields[0]), {PARALLAX_SOURCE_DIR "/platform/presets"});
+    const ReplayResult result = replay(read_address_trace(folder + fields[1] + ".csv.gz"), timing, {},
+                                       DramMapping::kRowBankColumn, 16);
+    const double seconds = static_cast<double>(result.clocks * timing.clock_period_ps) * 1e-12;
+    const double part = static_cast<double>(result.bytes) / seconds / timing.peak_bandwidth();
+    const double latency = result.latency_sum / static_cast<double>(result.reads);
+    const auto bursts = static_cast<double>(result.commands.reads + result.commands.writes);
+    const double hits = 1 - static_cast<double>(result.commands.activates) / bursts;
+    EXPECT_NEAR(part / std::stod(fields[2]), 1, 0.02) << line;
+    EXPECT_NEAR(latency / std::stod(fields[5]), 1, 0.02) << line;
+    EXPECT_NEAR(hits, std::stod(fields[8]), 0.015) << line;
+    ++rows;
+  }
+  EXPECT_GE(rows, 1);
+}
+
+}  // namespace
+}  // namespace parallax

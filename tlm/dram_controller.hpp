@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "tlm/dram_address.hpp"
+#include "tlm/dram_timing.hpp"
+
+namespace parallax {
+
+/// What the controller decides, beside the devices' own timing.
+struct DramPolicy {
+  std::size_t read_queue = 32;      ///< bursts, 1 to 1024
+  std::size_t write_queue = 32;     ///< bursts, 1 to 1024
+  std::size_t high_watermark = 26;  ///< writes queued at which a batch of them begins, at most write_queue
+  std::size_t low_watermark = 6;    ///< writes queued at which it ends when reads wait, below high_watermark
+  std::int64_t efficiency = 100;    ///< percent of the time that column commands may take, 1 to 100: what a
+                                    ///< real controller loses beyond the devices' timing
+};
+
+enum class DramCommand : std::uint8_t { kActivate, kPrecharge, kPrechargeAll, kRead, kWrite, kRefresh };
+
+/// Counts since the beginning.
+struct DramStatistics {
+  std::uint64_t reads = 0;   ///< bursts
+  std::uint64_t writes = 0;  ///< bursts
+  std::uint64_t activates = 0;
+  std::uint64_t precharges = 0;  ///< of one bank or of all
+  std::uint64_t refreshes = 0;
+  std::uint64_t turn_arounds = 0;  ///< changes between reading and writing, on the data bus
+};
+
+/// Sees every command, in order: for tests and traces.
+class DramListener {
+ public:
+  virtual ~DramListener() = default;
+  virtual void command(std::int64_t clock, DramCommand command, std::uint32_t bank, std::uint32_t row) = 0;
+};
+
+/// A DRAM controller with its rank of devices: open page, first-ready first-come-first-served, writes in
+/// batches, refresh of all banks when it is due. One command a clock; a burst that enters in clock n can
+/// cause its first command in n + 1.
+///
+/// Of the queue that is being served (reads, or a batch of writes) goes first what can go first: a read or
+/// write of an open row, an activate, a precharge; of several in one clock that of the oldest burst. A row is
+/// closed only when nothing in that queue wants it, so row hits go before conflicts. When a refresh is due
+/// nothing else begins until it is done. A batch of writes begins at the high watermark, or when no read
+/// waits, and ends at the low one if reads wait.
+///
+/// Plain C++ in clocks. It decides nothing beyond what its caller says is known (run_until), and steps from
+/// command to command, so idle time costs nothing.
+class DramController {
+ public:
+  using Clock = std::int64_t;
+  static constexpr Clock kNever = std::numeric_limits<Clock>::max();
+
+  struct Burst {
+    DramPlace place;
+    std::uint64_t tag = 0;
+    bool write = false;
+  };
+  struct Done {
+    std::uint64_t tag;
+    bool write;
+    Clock data_end;  ///< clock in which the last beat is over
+  };
+
+  DramController(const DramTiming& timing, const DramPolicy& policy);
+
+  /// Whether the queue has a place for another one.
+  bool room(bool write) const {
+    return write ? writes_.size() < policy_.write_queue : reads_.size() < policy_.read_queue;
+  }
+  /// Takes a burst in clock `clock`; needs room, and run_until(clock + 1) before, so that what happens in
+  /// that clock is not caused by it.
+  void submit(const Burst& burst, Clock clock);
+  /// Issues all commands before clock `limit`; appends the bursts whose command that was, in order.
+  void run_until(Clock limit, std::vector<Done>& done);
+  /// Clock of the next command if nothing else arrives; kNever when it waits for nothing but refreshes.
+  Clock next_command();
+  bool idle() const { return reads_.empty() && writes_.empty(); }
+
+  const DramStatistics& statistics() const { return statistics_; }
+  const DramTiming& timing() const { return timing_; }
+  void listen(DramListener* listener) { listener_ = listener; }
+
+ private:
+  struct Entry {
+    Burst burst;
+    Clock entered;
+  };
+  struct Bank {
+    std::int64_t open_row = -1;
+    Clock column = 0;     // earliest read or write of the open row
+    Clock activate = 0;   // earliest
+    Clock precharge = 0;  // earliest
+  };
+  struct Group {
+    Clock last_read = kLongAgo;
+    Clock last_write = kLongAgo;
+    Clock last_activate = kLongAgo;
+  };
+  struct Plan {
+    Clock clock = kNever;
+    DramCommand command = DramCommand::kRefresh;
+    std::size_t entry = 0;
+  };
+  static constexpr Clock kLongAgo = -(1ll << 40);
+
+  std::vector<Entry>& queue() { return plan_writing_ ? writes_ : reads_; }
+  bool direction() const;
+  Plan plan_queue();
+  Plan plan_refresh(Clock at) const;
+  void plan();
+  void issue(std::vector<Done>& done);
+  void activate(Clock at, const DramPlace& place);
+  void precharge(Clock at, Bank& bank);
+  void column(Clock at, std::size_t entry, std::vector<Done>& done);
+  void refresh(Clock at);
+  Clock column_ready(const Entry& entry, const Bank& bank) const;
+  Clock activate_ready(std::uint32_t bank) const;
+  std::uint32_t group_of(std::uint32_t bank) const {
+    return bank % static_cast<std::uint32_t>(groups_.size());
+  }
+
+  const DramTiming timing_;
+  const DramPolicy policy_;
+  std::vector<Entry> reads_;   // by age
+  std::vector<Entry> writes_;  // by age
+  bool writing_ = false;       // whether a batch of writes is under way
+  std::vector<Bank> banks_;
+  std::vector<Group> groups_;
+  Group any_;                         // of all groups
+  std::array<Clock, 4> activates_{};  // the last four, in a ring
+  std::size_t oldest_activate_ = 0;
+  Clock command_free_ = 0;  // next clock without a command
+  Clock column_free_ = 0;   // when the efficiency allows the next column command
+  std::int64_t lost_ = 0;   // hundredths of a clock, below one
+  Clock refresh_due_;
+  Clock refresh_free_ = 0;  // after the precharge of all banks
+  bool last_was_write_ = false;
+  Plan plan_;
+  bool plan_writing_ = false;  // from the queue of writes
+  Clock changed_ = -1;         // last clock in which a queue changed, or a command was issued
+  bool planned_ = false;
+  std::vector<std::uint8_t> wanted_;  // per bank: how plan_queue() has seen it
+  DramStatistics statistics_;
+  DramListener* listener_ = nullptr;
+};
+
+}  // namespace parallax
