@@ -17,6 +17,7 @@
 #include "platform/commands/memory_command.hpp"
 #include "platform/commands/run_command.hpp"
 #include "platform/commands/scene_command.hpp"
+#include "platform/commands/validate_command.hpp"
 #include "platform/config/nearest_name.hpp"
 #include "platform/version.hpp"
 #include "tlm/error.hpp"
@@ -126,6 +127,7 @@ int run_command_line(int argc, const char* const* argv, std::ostream& out, std::
   add_map_command(app, context);
   add_scene_command(app, context);
   add_memory_command(app, context);
+  add_validate_command(app, context);
 
   try {
     if (parse(app, argc, argv, out)) return 0;

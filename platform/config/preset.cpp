@@ -25,6 +25,17 @@ bool is_path(const std::string& name) {
   return ends_so || name.find('/') != std::string::npos;
 }
 
+std::vector<std::string> names_in(const Folders& folders) {
+  std::vector<std::string> names;
+  for (const fs::path& folder : folders) {
+    std::error_code failed;
+    for (const auto& entry : fs::directory_iterator(folder, failed)) {
+      if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
+    }
+  }
+  return names;
+}
+
 std::string joined(const Folders& folders) {
   std::string text;
   for (const fs::path& folder : folders) text += (text.empty() ? "" : ", ") + folder.string();
@@ -32,23 +43,26 @@ std::string joined(const Folders& folders) {
 }
 
 /// `before` opens the message: empty for the command line, "file:line: " for an `inherits`.
-fs::path find_preset(const std::string& name, const fs::path& relative_to, const Folders& folders,
-                     const std::string& before) {
+fs::path find_file(const std::string& name, const fs::path& relative_to, const Folders& folders,
+                   const std::string& before, const std::string& what) {
   std::error_code ignored;
   if (is_path(name)) {
     const fs::path file = relative_to.empty() ? fs::path(name) : (relative_to / name).lexically_normal();
     if (fs::exists(file, ignored)) return file;
-    throw UserError(fmt::format("{}preset file {} does not exist", before, file.string()));
+    throw UserError(fmt::format("{}{} file {} does not exist", before, what, file.string()));
   }
   for (const fs::path& folder : folders) {
     const fs::path file = folder / (name + ".toml");
     if (fs::exists(file, ignored)) return file;
   }
-  std::vector<std::string> names;
-  for (const PresetSummary& preset : list_presets(folders)) names.push_back(preset.name);
-  const std::string nearest = nearest_name(name, names);
-  throw UserError(fmt::format("{}no preset '{}' in {}{}{}", before, name, joined(folders),
+  const std::string nearest = nearest_name(name, names_in(folders));
+  throw UserError(fmt::format("{}no {} '{}' in {}{}{}", before, what, name, joined(folders),
                               nearest.empty() ? "" : "; the nearest is ", nearest));
+}
+
+fs::path find_preset(const std::string& name, const fs::path& relative_to, const Folders& folders,
+                     const std::string& before) {
+  return find_file(name, relative_to, folders, before, "preset");
 }
 
 /// The inheriting file and those before it, to tell a cycle.
@@ -90,6 +104,10 @@ std::vector<fs::path> preset_folders() {
     folders.push_back((program.parent_path() / ".." / "share" / "parallax" / "presets").lexically_normal());
   }
   return folders;
+}
+
+fs::path find_toml(const std::string& name, const std::vector<fs::path>& folders, const std::string& what) {
+  return find_file(name, {}, folders, "", what);
 }
 
 RawConfig load_preset(const std::string& name, const std::vector<fs::path>& folders) {

@@ -4,12 +4,9 @@
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
-#include <cerrno>
-#include <cstring>
-#include <fstream>
-#include <sstream>
 #include <string_view>
 
+#include "platform/config/toml_text.hpp"
 #include "tlm/error.hpp"
 
 namespace parallax {
@@ -28,13 +25,6 @@ std::string description_of(toml::node_type type) {
     default:
       return "a table";
   }
-}
-
-std::string one_line(std::string text) {
-  for (char& c : text) {
-    if (c == '\n' || c == '\r') c = ' ';
-  }
-  return text;
 }
 
 /// Collects the values of one document; `name` stands before the line number in every origin.
@@ -109,26 +99,6 @@ class Reader {
   RawConfig& values_;
 };
 
-std::string content_of(const path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream content;
-  if (std::filesystem::is_directory(file))
-    throw UserError(file.string() + ": is a folder, not a preset file");
-  if (!stream)
-    throw UserError(fmt::format("{}: cannot read the preset: {}", file.string(), std::strerror(errno)));
-  content << stream.rdbuf();
-  return content.str();
-}
-
-toml::table parse(const std::string& content, const std::string& name) {
-  try {
-    return toml::parse(content);
-  } catch (const toml::parse_error& error) {
-    throw UserError(fmt::format("{}:{}: {}", name, error.source().begin.line,
-                                one_line(std::string(error.description()))));
-  }
-}
-
 /// Takes a text entry of the document's head out of it, with its origin.
 std::optional<std::pair<std::string, std::string>> take_text(toml::table& table, std::string_view key,
                                                              const Reader& reader) {
@@ -147,7 +117,7 @@ std::optional<std::pair<std::string, std::string>> take_text(toml::table& table,
 PresetFile read_preset_file(const path& file) {
   PresetFile preset;
   preset.path = file;
-  toml::table table = parse(content_of(file), file.string());
+  toml::table table = read_toml(file, "preset");
   Reader reader(file.string(), preset.values);
   if (const auto description = take_text(table, "description", reader))
     preset.description = description->first;

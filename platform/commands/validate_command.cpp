@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "platform/commands/validate_command.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "platform/commands/command_context.hpp"
+#include "platform/commands/common_options.hpp"
+#include "platform/commands/interruption.hpp"
+#include "platform/config/preset.hpp"
+#include "platform/results/output_folder.hpp"
+#include "platform/results/progress.hpp"
+#include "platform/validation/validation.hpp"
+
+namespace parallax {
+namespace {
+
+constexpr int kOutside = 1;
+constexpr int kSignalled = 128;  // as shells report a program that a signal ended
+
+struct ValidateOptions {
+  std::vector<std::string> rows{"scenescan-pro", "other-designs"};
+  std::string preset;
+  std::vector<std::string> assignments;
+  std::filesystem::path out;
+  bool json = false;
+};
+
+int validate(const ValidateOptions& options, CommandContext& context) {
+  std::vector<PublishedRow> rows;
+  for (const std::string& name : options.rows) {
+    const PublishedRows file = read_published_rows(name, preset_folders());
+    for (PublishedRow row : file.rows) {
+      if (row.preset.empty()) row.preset = file.preset;
+      if (row.preset == file.preset) {
+        // What a row sets is its operating point: it wins over --set.
+        if (!options.preset.empty()) row.preset = options.preset;
+        std::vector<std::string> all = options.assignments;
+        all.insert(all.end(), row.assignments.begin(), row.assignments.end());
+        row.assignments = std::move(all);
+      }
+      rows.push_back(std::move(row));
+    }
+  }
+  const Interruption interruption;
+  std::vector<ValidatedRow> validated;
+  {
+    Progress progress(context.err, context.verbosity != Verbosity::kQuiet && standard_error_is_terminal(),
+                      "rows", static_cast<std::int64_t>(rows.size()));
+    validated = validate_rows(
+        rows, [&progress] { progress.advance(); }, [&interruption] { return interruption.requested(); });
+  }
+  if (interruption.requested()) {
+    context.err << fmt::format("parallax: interrupted after {} of {} rows\n", validated.size(), rows.size());
+    return kSignalled + interruption.signal();
+  }
+  const nlohmann::ordered_json tree = to_json(validated);
+  if (!options.out.empty()) {
+    OutputFolder folder(options.out);
+    folder.write("validation.json", tree.dump(2) + "\n");
+    folder.publish();
+  }
+  if (options.json) {
+    context.out << tree.dump(2) << '\n';
+  } else if (context.verbosity != Verbosity::kQuiet) {
+    context.out << table(validated);
+  }
+  return all_within(validated) ? 0 : kOutside;
+}
+
+}  // namespace
+
+void add_validate_command(CLI::App& app, CommandContext& context) {
+  const auto options = std::make_shared<ValidateOptions>();
+  CLI::App& command = *app.add_subcommand(
+      "validate", "Published figures beside what the model predicts; 1 if one is outside its tolerance");
+  command.add_option("--rows", options->rows, "Files of published rows, by name or path")
+      ->capture_default_str();
+  command.add_option("--preset", options->preset,
+                     "Machine to validate in place of the one that the rows are for");
+  command.add_option("--set", options->assignments, "A configuration key of that machine: key=value")
+      ->allow_extra_args(false);
+  command.add_option("--out", options->out, "Folder for validation.json");
+  add_json_option(command, options->json);
+  command.callback(
+      [options, &context] { context.action = [options, &context] { return validate(*options, context); }; });
+}
+
+}  // namespace parallax

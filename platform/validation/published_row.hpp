@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace parallax {
+
+/// One published figure and what the model has to do to predict it.
+struct PublishedRow {
+  std::string name;
+  std::string source;                    ///< where it was published
+  std::string preset;                    ///< empty: that of the file
+  std::vector<std::string> assignments;  ///< "key=value"
+  int width = 0;                         ///< px
+  int height = 0;                        ///< px
+  bool rectified = false;  ///< the images come rectified: an identity map; else the built-in scene's lens
+  bool refused = false;    ///< the machine must refuse this; the rest is unused
+  std::string metric;      ///< a path in timing.json, or "frame_time": ms from frame to frame
+  std::string unit;
+  double published = 0;
+  double least = 0;  ///< percent by which the prediction may deviate, at least
+  double most = 0;   ///< and at most
+};
+
+/// Published figures of one or several machines.
+struct PublishedRows {
+  std::string description;
+  std::string preset;  ///< of the rows that name none
+  std::vector<PublishedRow> rows;
+};
+
+/// Reads a file of rows, by name from `validation/<name>.toml` in the preset folders, or by path. Throws
+/// UserError with file and line.
+PublishedRows read_published_rows(const std::string& name,
+                                  const std::vector<std::filesystem::path>& preset_folders);
+
+}  // namespace parallax

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "platform/validation/published_row.hpp"
+
+namespace parallax {
+
+/// A published figure beside what the model says.
+struct ValidatedRow {
+  PublishedRow row;
+  double predicted = 0;  ///< in the row's unit
+  double deviation = 0;  ///< percent of the published figure
+  std::string limit;     ///< the limiting part, or why the machine refuses or cannot do it
+  bool within = false;   ///< the deviation is in the row's interval, or what had to be refused was
+};
+
+/// Runs the timing of every row, each in a process of its own (rows that differ in the metric alone share
+/// one), and compares. `done` is called after each row; `interrupted` is asked during a run. Throws UserError
+/// for a row that is no configuration at all. When interrupted it returns the rows until then.
+std::vector<ValidatedRow> validate_rows(const std::vector<PublishedRow>& rows,
+                                        const std::function<void()>& done,
+                                        const std::function<bool()>& interrupted);
+
+bool all_within(const std::vector<ValidatedRow>& rows);
+std::string table(const std::vector<ValidatedRow>& rows);
+nlohmann::ordered_json to_json(const std::vector<ValidatedRow>& rows);
+
+}  // namespace parallax
