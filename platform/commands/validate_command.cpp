@@ -15,6 +15,7 @@
 #include "platform/config/preset.hpp"
 #include "platform/results/output_folder.hpp"
 #include "platform/results/progress.hpp"
+#include "platform/validation/sensitivity.hpp"
 #include "platform/validation/validation.hpp"
 
 namespace parallax {
@@ -28,18 +29,19 @@ struct ValidateOptions {
   std::string preset;
   std::vector<std::string> assignments;
   std::filesystem::path out;
+  bool sensitivity = false;
   bool json = false;
 };
 
-int validate(const ValidateOptions& options, CommandContext& context) {
+std::vector<PublishedRow> read_rows(const ValidateOptions& options) {
   std::vector<PublishedRow> rows;
   for (const std::string& name : options.rows) {
     const PublishedRows file = read_published_rows(name, preset_folders());
     for (PublishedRow row : file.rows) {
       if (row.preset.empty()) row.preset = file.preset;
       if (row.preset == file.preset) {
-        // What a row sets is its operating point: it wins over --set.
         if (!options.preset.empty()) row.preset = options.preset;
+        // What a row sets is its operating point: it wins over --set.
         std::vector<std::string> all = options.assignments;
         all.insert(all.end(), row.assignments.begin(), row.assignments.end());
         row.assignments = std::move(all);
@@ -47,19 +49,32 @@ int validate(const ValidateOptions& options, CommandContext& context) {
       rows.push_back(std::move(row));
     }
   }
+  return rows;
+}
+
+int validate(const ValidateOptions& options, CommandContext& context) {
+  const std::vector<PublishedRow> rows = read_rows(options);
   const Interruption interruption;
-  std::vector<ValidatedRow> validated;
-  {
-    Progress progress(context.err, context.verbosity != Verbosity::kQuiet && standard_error_is_terminal(),
-                      "rows", static_cast<std::int64_t>(rows.size()));
-    validated = validate_rows(
-        rows, [&progress] { progress.advance(); }, [&interruption] { return interruption.requested(); });
+  const auto interrupted = [&interruption] { return interruption.requested(); };
+  auto progress = std::make_unique<Progress>(
+      context.err, context.verbosity != Verbosity::kQuiet && standard_error_is_terminal(), "rows",
+      static_cast<std::int64_t>(rows.size()));
+  const std::vector<ValidatedRow> validated = validate_rows(
+      rows, [&] { progress->advance(); }, interrupted);
+  progress.reset();
+  nlohmann::ordered_json tree = to_json(validated);
+  std::string text = table(validated);
+  if (options.sensitivity && !interruption.requested()) {
+    const std::vector<ValidatedRow> moved = rows_with_fitted_parameters(validated);
+    const std::vector<Sensitivity> found = sensitivities(
+        moved, [] {}, interrupted);
+    tree["sensitivity"] = to_json(moved, found);
+    text += "\n" + table(moved, found);
   }
   if (interruption.requested()) {
     context.err << fmt::format("parallax: interrupted after {} of {} rows\n", validated.size(), rows.size());
     return kSignalled + interruption.signal();
   }
-  const nlohmann::ordered_json tree = to_json(validated);
   if (!options.out.empty()) {
     OutputFolder folder(options.out);
     folder.write("validation.json", tree.dump(2) + "\n");
@@ -68,7 +83,7 @@ int validate(const ValidateOptions& options, CommandContext& context) {
   if (options.json) {
     context.out << tree.dump(2) << '\n';
   } else if (context.verbosity != Verbosity::kQuiet) {
-    context.out << table(validated);
+    context.out << text;
   }
   return all_within(validated) ? 0 : kOutside;
 }
@@ -85,6 +100,8 @@ void add_validate_command(CLI::App& app, CommandContext& context) {
                      "Machine to validate in place of the one that the rows are for");
   command.add_option("--set", options->assignments, "A configuration key of that machine: key=value")
       ->allow_extra_args(false);
+  command.add_flag("--sensitivity", options->sensitivity,
+                   "Also how the predictions move when a fitted parameter changes by 10 %");
   command.add_option("--out", options->out, "Folder for validation.json");
   add_json_option(command, options->json);
   command.callback(

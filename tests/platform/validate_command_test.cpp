@@ -83,6 +83,29 @@ TEST_F(ValidateCommand, SetChangesTheMachineButNotTheOperatingPoint) {
   EXPECT_EQ(program_("validate --rows " + rows + " --set link.line_rate=1e6").code, 1);
 }
 
+TEST_F(ValidateCommand, SensitivityToWhatIsFitted) {
+  // Limited by the host, and so proportional to its rate alone.
+  std::string row = kSmall;
+  row.replace(row.find(", \"link.host_pixel_rate=1e6\""), 28, "");
+  const std::string machine = write(
+      "description = \"\"\ninherits = \"scenescan-pro\"\n[link]\n"
+      "host_pixel_rate = { value = 1_000_000, tag = \"F\", source = \"a test\" }\n",
+      "machine.toml");
+  const std::string rows =
+      write("preset = \"" + machine + "\"\n[[row]]\n" + row + "published = 325\nleast = 0\nmost = 1\n");
+  const test::Outcome outcome = program_("validate --sensitivity --json --rows " + rows);
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  const auto tree = nlohmann::json::parse(outcome.out)["sensitivity"];
+  ASSERT_EQ(tree.size(), 3u);
+  for (const auto& entry : tree) {
+    const bool host = entry["key"] == "link.host_pixel_rate";
+    EXPECT_NEAR(entry["rows"][0]["lower_percent"], host ? -10 : 0, 0.01) << entry;
+    EXPECT_NEAR(entry["rows"][0]["higher_percent"], host ? 10 : 0, 0.01) << entry;
+  }
+  const test::Outcome text = program_("validate --sensitivity --rows " + rows);
+  EXPECT_NE(text.out.find("  -10.00 %   +10.00 %"), std::string::npos) << text.out;
+}
+
 TEST_F(ValidateCommand, WhatMustBeRefusedAndIsNot) {
   const std::string rows =
       write(row("name = \"fits\"\nsource = \"a test\"\nsize = \"64x48\"\nrefused = true"));

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "platform/validation/validation.hpp"
+
+namespace parallax {
+
+/// How the predictions move with one fitted parameter: in percent of each, in the order of the rows.
+struct Sensitivity {
+  std::string key;
+  std::string value;           ///< in the preset
+  std::vector<double> lower;   ///< with 10 % less
+  std::vector<double> higher;  ///< with 10 % more
+};
+
+/// The rows that a fitted parameter could move: those of a preset that has one, with a prediction.
+std::vector<ValidatedRow> rows_with_fitted_parameters(const std::vector<ValidatedRow>& rows);
+
+/// Runs those rows with every integer or real key that their preset tags as fitted, 10 % lower and 10 %
+/// higher. All rows must be of one preset. `done` is called after each row; when interrupted it returns what
+/// it has.
+std::vector<Sensitivity> sensitivities(const std::vector<ValidatedRow>& rows,
+                                       const std::function<void()>& done,
+                                       const std::function<bool()>& interrupted);
+
+std::string table(const std::vector<ValidatedRow>& rows, const std::vector<Sensitivity>& sensitivities);
+nlohmann::ordered_json to_json(const std::vector<ValidatedRow>& rows,
+                               const std::vector<Sensitivity>& sensitivities);
+
+}  // namespace parallax
