@@ -12,6 +12,7 @@
 
 #include "platform/commands/command_context.hpp"
 #include "platform/commands/interruption.hpp"
+#include "platform/commands/relax.hpp"
 #include "platform/commands/run_input.hpp"
 #include "platform/commands/vary.hpp"
 #include "platform/config/config_writer.hpp"
@@ -197,6 +198,7 @@ class Run {
 
 int run(const RunOptions& options, CommandContext& context) {
   check_options(options);
+  if (options.relax) return relax(options, context);
   return options.vary.empty() ? Run(options, context).execute() : vary(options, context);
 }
 

@@ -92,6 +92,11 @@ void add_run_command(CLI::App& app, CommandContext& context) {
       ->allow_extra_args(false)
       ->take_all()
       ->group("Timing");
+  command
+      .add_flag("--relax", options->relax,
+                "With --timing-only: what limits? One run with each limit alone taken away, sorted by what "
+                "it gains")
+      ->group("Timing");
   command.add_option("--out", options->out, "Folder for the results; without it only the summary is printed")
       ->check(not_empty())
       ->type_name("DIR")

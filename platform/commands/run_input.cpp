@@ -44,8 +44,10 @@ std::unique_ptr<FrameSource> scene(const RunOptions& options, const MachineConfi
 void check_timing_only(const RunOptions& options) {
   if (!options.timing_only) {
     if (!options.vary.empty()) throw UserError("--vary needs --timing-only");
+    if (options.relax) throw UserError("--relax needs --timing-only");
     return;
   }
+  if (options.relax && !options.vary.empty()) throw UserError("--relax and --vary exclude each other");
   const auto refuse = [](const char* option, bool given) {
     if (given) throw UserError(fmt::format("--timing-only computes no images: it cannot go with {}", option));
   };

@@ -33,6 +33,7 @@ struct RunOptions {
   // Output.
   bool timing_only = false;       ///< no images are computed
   std::vector<std::string> vary;  ///< "key=v1,v2,...": a grid of timing-only runs
+  bool relax = false;             ///< timing-only runs with one limit at a time taken away
   std::filesystem::path out;
   bool point_cloud = true;
   bool json = false;

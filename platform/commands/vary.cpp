@@ -4,21 +4,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 #include <memory>
 #include <set>
-#include <tuple>
 #include <utility>
 
 #include "platform/commands/command_context.hpp"
 #include "platform/commands/interruption.hpp"
-#include "platform/commands/run_input.hpp"
+#include "platform/commands/timing_inputs.hpp"
 #include "platform/config/config_writer.hpp"
 #include "platform/config/nearest_name.hpp"
 #include "platform/config/preset.hpp"
 #include "platform/config/preset_file.hpp"
-#include "platform/input/image_padding.hpp"
-#include "platform/input/rectification_choice.hpp"
 #include "platform/results/output_folder.hpp"
 #include "platform/results/progress.hpp"
 #include "platform/timing_evaluator.hpp"
@@ -114,65 +110,6 @@ nlohmann::ordered_json as_json(const std::string& assignment) {
   if (value == nullptr) return {{key, value_of(assignment)}};
   return {{key, std::visit([](const auto& held) { return nlohmann::ordered_json(held); }, *value)}};
 }
-
-/// The input as the machines of the grid see it. Images are opened anew only when a key about their size
-/// changes, the map is built once for every window, precision and processed size.
-class GridInput {
- public:
-  GridInput(const RunOptions& options, NoticeSink notice) : options_(options), notice_(std::move(notice)) {}
-
-  /// Throws UserError when the images cannot be read, or the configuration and the input do not go together.
-  void open(const MachineConfig& config) { source_for(config); }
-  TimingInput prepare(const MachineConfig& config) {
-    const FrameSource& source = source_for(config);
-    TimingInput input;
-    input.width = source.width();
-    input.height = source.height();
-    input.map = &map_for(config, source);
-    input.frames = source.frames();
-    input.timing_frames = options_.timing_frames;
-    if (options_.left.empty() && options_.input.empty()) input.scene_seed = options_.scene.seed;
-    return input;
-  }
-
- private:
-  using SourceKey = std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, std::uint32_t, int, int>;
-  using MapKey = std::tuple<int, int, int, int, int, int>;
-
-  const FrameSource& source_for(const MachineConfig& config) {
-    const bool scene = options_.left.empty() && options_.input.empty();
-    const DisparityRange range = scene ? config.matching.range() : DisparityRange{};
-    const ImageConfig& image = config.image;
-    const SourceKey key{image.width,      image.height, image.max_width,
-                        image.max_height, range.offset, range.count};
-    if (source_ == nullptr || key != source_key_) {
-      source_ = open_source(options_, config, notice_);
-      source_key_ = key;
-    }
-    return *source_;
-  }
-
-  const EncodedMap& map_for(const MachineConfig& config, const FrameSource& source) {
-    const cv::Size size(source.width(), source.height());
-    const Granularity granularity{static_cast<int>(config.image.width_granularity),
-                                  static_cast<int>(config.image.height_granularity)};
-    const cv::Size processed = padded_size(size, granularity);
-    const OffsetRange& range = config.rectification.range;
-    const MapKey key{size.width,       size.height,  processed.width,
-                     processed.height, range.window, range.fraction_bits};
-    const auto found = maps_.find(key);
-    if (found != maps_.end()) return found->second;
-    if (const std::string line = padding_notice(size, granularity); !line.empty()) notice_(line);
-    return maps_.emplace(key, choose_rectification(options_, range, source, processed, notice_).map)
-        .first->second;
-  }
-
-  const RunOptions& options_;
-  const NoticeSink notice_;
-  std::unique_ptr<FrameSource> source_;
-  SourceKey source_key_;
-  std::map<MapKey, EncodedMap> maps_;
-};
 
 class Grid {
  public:
@@ -290,7 +227,7 @@ class Grid {
   CommandContext& context_;
   std::vector<Axis> axes_;
   std::vector<Point> points_;
-  GridInput input_;
+  TimingInputs input_;
   std::unique_ptr<OutputFolder> folder_;
   std::set<std::string> said_;  // notes, once each
 };

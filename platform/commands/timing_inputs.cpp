@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "platform/commands/timing_inputs.hpp"
+
+#include <utility>
+
+#include "platform/commands/run_input.hpp"
+#include "platform/input/image_padding.hpp"
+#include "platform/input/rectification_choice.hpp"
+
+namespace parallax {
+
+TimingInputs::TimingInputs(const RunOptions& options, NoticeSink notice)
+    : options_(options), notice_(std::move(notice)) {}
+
+TimingInput TimingInputs::prepare(const MachineConfig& config) {
+  const FrameSource& source = source_for(config);
+  TimingInput input;
+  input.width = source.width();
+  input.height = source.height();
+  input.map = &map_for(config, source);
+  input.frames = source.frames();
+  input.timing_frames = options_.timing_frames;
+  if (options_.left.empty() && options_.input.empty()) input.scene_seed = options_.scene.seed;
+  return input;
+}
+
+const FrameSource& TimingInputs::source_for(const MachineConfig& config) {
+  const bool scene = options_.left.empty() && options_.input.empty();
+  const DisparityRange range = scene ? config.matching.range() : DisparityRange{};
+  const ImageConfig& image = config.image;
+  const SourceKey key{image.width,      image.height, image.max_width,
+                      image.max_height, range.offset, range.count};
+  if (source_ == nullptr || key != source_key_) {
+    source_ = open_source(options_, config, notice_);
+    source_key_ = key;
+  }
+  return *source_;
+}
+
+const EncodedMap& TimingInputs::map_for(const MachineConfig& config, const FrameSource& source) {
+  const cv::Size size(source.width(), source.height());
+  const Granularity granularity{static_cast<int>(config.image.width_granularity),
+                                static_cast<int>(config.image.height_granularity)};
+  const cv::Size processed = padded_size(size, granularity);
+  const OffsetRange& range = config.rectification.range;
+  const MapKey key{size.width,       size.height,  processed.width,
+                   processed.height, range.window, range.fraction_bits};
+  const auto found = maps_.find(key);
+  if (found != maps_.end()) return found->second;
+  if (const std::string line = padding_notice(size, granularity); !line.empty()) notice_(line);
+  return maps_.emplace(key, choose_rectification(options_, range, source, processed, notice_).map)
+      .first->second;
+}
+
+}  // namespace parallax

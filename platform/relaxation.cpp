@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "platform/relaxation.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace parallax {
+namespace {
+
+constexpr std::int64_t kFastestClock = 10'000'000'000;  // Hz, the largest that a configuration takes
+constexpr std::int64_t kDeeper = 16;
+constexpr std::int64_t kDeepest = 1 << 20;  // tokens; deeper FIFOs take memory of this computer
+
+Relaxation clock(const std::string& name, std::int64_t hertz) {
+  return {name + "_clock",
+          "twice as fast",
+          {fmt::format("clocks.{}_hz={}", name, std::min(2 * hertz, kFastestClock))}};
+}
+
+// FIFOs between stages; those of DMA engines have keys of their own.
+std::vector<std::string> deeper_fifos(const nlohmann::ordered_json& metrics) {
+  std::vector<std::string> assignments;
+  for (const std::string& name : pipeline_stream_names()) {
+    const std::int64_t depth = metrics.at("streams").at(name).at("depth").at("value");
+    assignments.push_back(fmt::format("streams.{}.depth={}", name,
+                                      std::max(depth, std::min(kDeeper * depth + 1024, kDeepest))));
+  }
+  return assignments;
+}
+
+std::vector<std::string> longer_queues(const DmaConfig& dma) {
+  std::vector<std::string> assignments;
+  const auto add = [&](const char* name, const DmaPortConfig& port) {
+    const std::uint32_t outstanding = std::min(8 * port.outstanding, 256U);
+    assignments.push_back(fmt::format("dma.{}.outstanding={}", name, outstanding));
+    assignments.push_back(
+        fmt::format("dma.{}.fifo_bytes={}", name,
+                    std::min(std::max(port.fifo_bytes, 2 * outstanding * port.burst_bytes), 1U << 20)));
+  };
+  add("camera", dma.camera);
+  add("left", dma.left);
+  add("right", dma.right);
+  add("map", dma.map);
+  add("output", dma.output);
+  add("link", dma.link);
+  return assignments;
+}
+
+}  // namespace
+
+std::vector<Relaxation> relaxations(const MachineConfig& config, const nlohmann::ordered_json& metrics) {
+  std::vector<Relaxation> all{
+      {"fifos", "between stages, 16 times and 1024 tokens deeper", deeper_fifos(metrics)},
+      {"memory",
+       "no latency, all of 1024 B a cycle",
+       {"memory.bytes_per_cycle=1024", "memory.latency_cycles=0", "memory.efficiency=100"}},
+      {"dma", "8 times as many bursts under way", longer_queues(config.dma)},
+      {"camera",
+       "any rate, cable and pixel clock",
+       {fmt::format("clocks.camera_hz={}", kFastestClock), "camera.bytes_per_second=1000000000000",
+        "camera.frame_rate=0", "camera.row_blanking=0", "camera.frame_blanking=0"}},
+      {"buffers",
+       "twice as many for frames and results",
+       {fmt::format("camera.frame_buffers={}", std::min(2 * config.camera.frame_buffers, 64U)),
+        fmt::format("link.output_buffers={}", std::min(2 * config.link.output_buffers, 64U)),
+        fmt::format("memory.size_bytes={}", 4 * config.memory.size_bytes)}},
+      clock("core", config.clocks.core_hz),
+      clock("memory", config.clocks.memory_hz),
+      clock("camera", config.clocks.camera_hz)};
+  if (config.timing.matching.interval > 1) {
+    all.push_back({"matching_interval", "one iteration a cycle", {"matching.interval=1"}});
+  }
+  if (config.software.response_ns > 0 || !config.software.queue_frames) {
+    all.push_back({"software",
+                   "no time between frames, which queue",
+                   {"software.response_ns=0", "software.queue_frames=true"}});
+  }
+  if (config.link.enabled) {
+    all.push_back(clock("link", config.clocks.link_hz));
+    all.push_back({"link", "1 Tbit/s", {"link.line_rate=1000000000000"}});
+    if (config.link.host_pixel_rate > 0)
+      all.push_back({"host", "takes pixels at any rate", {"link.host_pixel_rate=0"}});
+  }
+  return all;
+}
+
+}  // namespace parallax

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+// `parallax run --timing-only --relax` names the part that was made slow.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/program.hpp"
+#include "tests/platform/temporary_folder.hpp"
+
+namespace parallax::test {
+namespace {
+
+class Relax : public testing::Test {
+ protected:
+  nlohmann::json run(const std::string& arguments) {
+    const Outcome outcome =
+        program_("run --timing-only --relax --json " + arguments +
+                 (arguments.find("--size") == std::string::npos ? " --size 64x48 -d 32" : ""));
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    return nlohmann::json::parse(outcome.out, nullptr, false);
+  }
+  std::string limit(const std::string& arguments) { return run(arguments)["limit"]; }
+
+  Program program_;
+};
+
+TEST_F(Relax, NamesWhatWasMadeSlow) {
+  // Without the software's time, so that small images show the other parts.
+  const std::string alone =
+      " --set software.response_ns=0 --set software.queue_frames=true --set link.host_pixel_rate=0 --set "
+      "link.line_rate=1000000000000 ";
+  EXPECT_EQ(limit("--set link.host_pixel_rate=1e6"), "host");
+  EXPECT_EQ(limit("--set link.line_rate=1e6"), "link");
+  EXPECT_EQ(limit("--set camera.frame_rate=30"), "camera");
+  EXPECT_EQ(limit("--set camera.bytes_per_second=1e6"), "camera");
+  EXPECT_EQ(limit("--set software.response_ns=100000000"), "software");
+  EXPECT_EQ(limit(alone + "--set matching.interval=64"), "matching_interval");
+  EXPECT_EQ(limit(alone + "--set clocks.core_hz=1e6"), "core_clock");
+  EXPECT_EQ(limit(alone + "--set memory.bytes_per_cycle=1 --set clocks.memory_hz=10e6"), "memory");
+  EXPECT_EQ(limit("--size 320x240 -d 64 --set streams.left_texture.depth=64"), "fifos");
+}
+
+TEST_F(Relax, ASecondBufferGainsWhatSendingTakes) {
+  const nlohmann::json tree =
+      run("--set software.response_ns=0 --set link.host_pixel_rate=0 --set link.line_rate=260e6 "
+          "--set link.output_buffers=1 --set clocks.core_hz=20e6");
+  for (const auto& entry : tree["relaxations"]) {
+    if (entry["name"] == "buffers") {
+      EXPECT_GT(entry["gain"]["value"], 10) << entry;
+    }
+  }
+}
+
+TEST_F(Relax, GainsAreSortedAndThoseOfRunsWithTheKeysSet) {
+  const nlohmann::json tree = run("--set link.host_pixel_rate=1e6");
+  double before = 1e9;
+  for (const auto& entry : tree["relaxations"]) {
+    const double gain = entry["gain"]["value"];
+    EXPECT_LE(gain, before);
+    before = gain;
+    std::string sets;
+    for (const std::string set : entry["set"]) sets += " --set " + set;
+    if (entry["name"] != "host" && entry["name"] != "memory") continue;
+    const Outcome again =
+        program_("run --timing-only --json --size 64x48 -d 32 --set link.host_pixel_rate=1e6" + sets);
+    EXPECT_EQ(nlohmann::json::parse(again.out)["performance"]["frame_rate"]["value"],
+              entry["frame_rate"]["value"]);
+  }
+}
+
+TEST_F(Relax, TextAndFile) {
+  const TemporaryFolder folder;
+  const Outcome outcome =
+      program_("run --timing-only --relax --size 64x48 -d 32 --set link.host_pixel_rate=1e6 --out " +
+               (folder / "out"));
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("limit               host\n"), std::string::npos) << outcome.out;
+  EXPECT_EQ(nlohmann::json::parse(folder.read("out/relaxations.json"))["limit"], "host");
+  EXPECT_EQ(program_("run -q --timing-only --relax --size 64x48 -d 32").out, "");
+}
+
+TEST_F(Relax, AMachineThatGetsStuckHasNoLimits) {
+  const Outcome outcome =
+      program_("run --timing-only --relax --size 64x48 -d 32 --set streams.left_texture.depth=8");
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_NE(outcome.err.find("streams.left_texture.depth = "), std::string::npos) << outcome.err;
+  EXPECT_EQ(outcome.out, "");
+}
+
+TEST_F(Relax, OptionsThatDoNotGoTogether) {
+  EXPECT_EQ(program_("run --relax").err, "parallax: error: --relax needs --timing-only\n");
+  const Outcome both = program_("run --timing-only --relax --vary matching.p1=1,2");
+  EXPECT_EQ(both.code, 2);
+  EXPECT_EQ(both.err, "parallax: error: --relax and --vary exclude each other\n");
+  EXPECT_EQ(program_("run --timing-only --relax --set matching.p3=1").code, 2);
+}
+
+}  // namespace
+}  // namespace parallax::test
