@@ -27,7 +27,27 @@ DramController::DramController(const DramTiming& timing, const DramPolicy& polic
 void DramController::submit(const Burst& burst, Clock clock) {
   (burst.write ? writes_ : reads_).push_back({burst, clock});
   changed_ = clock;
-  planned_ = false;
+  planned_ = planned_ && direction() == plan_writing_ && (burst.write != plan_writing_ || plan_newest());
+}
+
+// Adds the burst that entered last to the plan; false when that takes a new one. Only what it can do sooner
+// than the plan matters: of several in one clock the older goes first.
+bool DramController::plan_newest() {
+  const std::size_t index = queue().size() - 1;
+  const Entry& entry = queue()[index];
+  const std::uint32_t number = entry.burst.place.bank;
+  Plan newest;
+  if (banks_[number].open_row == std::int64_t{entry.burst.place.row}) {
+    if ((wanted_[number] & kPrepare) != 0) return false;  // the bank must not be closed any more
+    wanted_[number] |= kHit;
+    newest = plan_column(entry, index);
+  } else {
+    if (wanted_[number] != 0) return true;
+    wanted_[number] = kPrepare;
+    newest = plan_row(entry, index);
+  }
+  if (newest.clock < std::min(plan_.clock, refresh_due_)) plan_ = newest;
+  return true;
 }
 
 void DramController::run_until(Clock limit, std::vector<Done>& done) {
@@ -58,33 +78,48 @@ void DramController::plan() {
 // The earliest command for the queue that is being served; of several in one clock the oldest burst's.
 DramController::Plan DramController::plan_queue() {
   Plan column;
-  Plan other;
+  Plan row;
   const std::vector<Entry>& entries = queue();
-  // What could have been done before the last change has been done, or the direction was another.
-  const Clock begin = std::max(command_free_, changed_ + 1);
   std::fill(wanted_.begin(), wanted_.end(), std::uint8_t{0});
+  std::size_t hits = 0;
   for (std::size_t i = 0; i < entries.size(); ++i) {
-    const Entry& entry = entries[i];
-    const Bank& bank = banks_[entry.burst.place.bank];
-    if (bank.open_row != std::int64_t{entry.burst.place.row}) continue;
-    wanted_[entry.burst.place.bank] |= kHit;
-    const Clock ready = std::max(begin, column_ready(entry, bank));
-    if (ready < column.clock)
-      column = {ready, entry.burst.write ? DramCommand::kWrite : DramCommand::kRead, i};
+    const DramPlace& place = entries[i].burst.place;
+    if (banks_[place.bank].open_row != std::int64_t{place.row}) continue;
+    ++hits;
+    if (wanted_[place.bank] != 0) continue;  // an older burst for the same row can go as soon
+    wanted_[place.bank] = kHit;
+    const Plan plan = plan_column(entries[i], i);
+    if (plan.clock < column.clock) column = plan;
   }
-  for (std::size_t i = 0; i < entries.size(); ++i) {
-    const Entry& entry = entries[i];
-    const std::uint32_t number = entry.burst.place.bank;
-    const Bank& bank = banks_[number];
-    if (wanted_[number] != 0) continue;  // its row is wanted, or an older burst prepares it
-    wanted_[number] = kPrepare;
-    const bool closed = bank.open_row < 0;
-    const Clock ready =
-        std::max({begin, entry.entered + 1, closed ? activate_ready(number) : bank.precharge});
-    if (ready < other.clock) other = {ready, closed ? DramCommand::kActivate : DramCommand::kPrecharge, i};
+  for (std::size_t i = 0; i < entries.size() && hits < entries.size(); ++i) {
+    std::uint8_t& wanted = wanted_[entries[i].burst.place.bank];
+    if (wanted != 0) continue;  // its row is wanted, or an older burst prepares it
+    wanted = kPrepare;
+    const Plan plan = plan_row(entries[i], i);
+    if (plan.clock < row.clock) row = plan;
   }
-  if (column.clock != other.clock) return column.clock < other.clock ? column : other;
-  return column.entry < other.entry ? column : other;
+  if (column.clock != row.clock) return column.clock < row.clock ? column : row;
+  return column.entry < row.entry ? column : row;
+}
+
+// What could have been done before the last change has been done, or the direction was another.
+DramController::Clock DramController::earliest(const Entry& entry) const {
+  return std::max({command_free_, changed_ + 1, entry.entered + 1});
+}
+
+// The read or write of a burst whose row is open.
+DramController::Plan DramController::plan_column(const Entry& entry, std::size_t index) const {
+  const Clock ready = std::max(earliest(entry), column_ready(entry));
+  return {ready, entry.burst.write ? DramCommand::kWrite : DramCommand::kRead, index};
+}
+
+// What opens the row of a burst, or closes the one in its place.
+DramController::Plan DramController::plan_row(const Entry& entry, std::size_t index) const {
+  const std::uint32_t number = entry.burst.place.bank;
+  const Bank& bank = banks_[number];
+  const bool closed = bank.open_row < 0;
+  const Clock ready = std::max(earliest(entry), closed ? activate_ready(number) : bank.precharge);
+  return {ready, closed ? DramCommand::kActivate : DramCommand::kPrecharge, index};
 }
 
 DramController::Plan DramController::plan_refresh(Clock at) const {
@@ -98,9 +133,10 @@ DramController::Plan DramController::plan_refresh(Clock at) const {
   return {closed, DramCommand::kRefresh, 0};
 }
 
-DramController::Clock DramController::column_ready(const Entry& entry, const Bank& bank) const {
-  const Group& group = groups_[group_of(entry.burst.place.bank)];
-  Clock ready = std::max({entry.entered + 1, bank.column, column_free_});
+DramController::Clock DramController::column_ready(const Entry& entry) const {
+  const std::uint32_t bank = entry.burst.place.bank;
+  const Group& group = groups_[group_of(bank)];
+  const Clock ready = std::max(banks_[bank].column, column_free_);
   if (entry.burst.write) {
     return std::max({ready, any_.last_write + timing_.ccd, group.last_write + timing_.ccd_group,
                      any_.last_read + timing_.rtw});

@@ -113,6 +113,10 @@ class DramController {
   std::vector<Entry>& queue() { return plan_writing_ ? writes_ : reads_; }
   bool direction() const;
   Plan plan_queue();
+  bool plan_newest();
+  Plan plan_column(const Entry& entry, std::size_t index) const;
+  Plan plan_row(const Entry& entry, std::size_t index) const;
+  Clock earliest(const Entry& entry) const;
   Plan plan_refresh(Clock at) const;
   void plan();
   void issue(std::vector<Done>& done);
@@ -120,7 +124,7 @@ class DramController {
   void precharge(Clock at, Bank& bank);
   void column(Clock at, std::size_t entry, std::vector<Done>& done);
   void refresh(Clock at);
-  Clock column_ready(const Entry& entry, const Bank& bank) const;
+  Clock column_ready(const Entry& entry) const;
   Clock activate_ready(std::uint32_t bank) const;
   std::uint32_t group_of(std::uint32_t bank) const {
     return bank % static_cast<std::uint32_t>(groups_.size());

@@ -98,6 +98,16 @@ struct ReaderBench {
   BurstSink sink;
 };
 
+// Writes the memory from its first byte on, in no time.
+void fill(BusMaster& master, Values bytes) {
+  ::tlm::tlm_generic_payload payload;
+  payload.set_command(::tlm::TLM_WRITE_COMMAND);
+  payload.set_data_ptr(bytes.data());
+  payload.set_data_length(static_cast<unsigned>(bytes.size()));
+  payload.set_streaming_width(static_cast<unsigned>(bytes.size()));
+  master.socket->transport_dbg(payload);
+}
+
 // 100 MHz as the engines; 8 B a cycle, 3 cycles of latency.
 MemoryTiming plain_memory() {
   MemoryTiming t;
@@ -204,13 +214,7 @@ TEST(DmaReader, BringsTheBytesOfSeveralJobs) {
   const Values bytes = pattern(1 << 16);
   std::vector<std::string> done;
   Thread filling("filling", [&] {
-    ::tlm::tlm_generic_payload payload;
-    Values copy = bytes;
-    payload.set_command(::tlm::TLM_WRITE_COMMAND);
-    payload.set_data_ptr(copy.data());
-    payload.set_data_length(1 << 16);
-    payload.set_streaming_width(1 << 16);
-    b.reader.master.socket->transport_dbg(payload);
+    fill(b.reader.master, bytes);
     const auto note = [&](const char* name) { return [&done, name] { done.emplace_back(name); }; };
     b.reader.start({1000, {40, 1, 59}, true, note("first")});  // 100 bytes: 32 + 32 + 32 + 4
     b.reader.start({0, {}, true, note("empty")});
@@ -231,13 +235,7 @@ TEST(DmaReader, RowsWithAPitchArePiecesOfTheirOwn) {
   ReaderBench<Memory> b(engine(32, 4, 4), 3 * 2 + 1, 0, plain_memory(), memory_clock());
   const Values bytes = pattern(1 << 16);
   Thread filling("filling", [&] {
-    ::tlm::tlm_generic_payload payload;
-    Values copy = bytes;
-    payload.set_command(::tlm::TLM_WRITE_COMMAND);
-    payload.set_data_ptr(copy.data());
-    payload.set_data_length(1 << 16);
-    payload.set_streaming_width(1 << 16);
-    b.reader.master.socket->transport_dbg(payload);
+    fill(b.reader.master, bytes);
     b.reader.start({1000, {40, 40, 40}, true, nullptr, 300});  // each 32 + 8
     b.reader.start({7, {32}, true, nullptr});
   });
