@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "platform/acquisition.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 #include <vector>
 
 #include "platform/engine_config.hpp"
 #include "platform/when_both.hpp"
+#include "tlm/error.hpp"
 
 namespace parallax {
 namespace {
@@ -47,6 +50,16 @@ Acquisition::Acquisition(const sc_core::sc_module_name& name, const MachineConfi
   right_sensor_.out_bursts(right_bursts_);
   dma_left_.in_bursts(left_bursts_);
   dma_right_.in_bursts(right_bursts_);
+  if (config.camera.frame_rate > 0) {
+    trigger_.emplace(config.camera, clock.frequency());
+    if (trigger_->period() < left_sensor_.frame_time()) {
+      throw UserError(
+          fmt::format("camera.frame_rate = {}: reading out {}x{} px takes {} pixel clocks, which allows at "
+                      "most {:.2f} frames/s",
+                      config.camera.frame_rate, input.width, input.height, left_sensor_.frame_time().count(),
+                      1 / clock.seconds(left_sensor_.frame_time())));
+    }
+  }
   SC_HAS_PROCESS(Acquisition);
   SC_THREAD(expose_frames);
 }
@@ -62,27 +75,65 @@ void Acquisition::release() {
 
 // Nothing that has to be freed lives on this thread's stack while it waits: it never ends.
 void Acquisition::expose_frames() {
-  for (std::int64_t frame = 0;; ++frame) {
+  if (trigger_) {
+    expose_at_rate();
+  } else {
+    expose_on_demand();
+  }
+}
+
+void Acquisition::expose_on_demand() {
+  for (;;) {
     wait_for_buffer();
-    if (config_.camera.frame_rate > 0) {
-      const double due = static_cast<double>(frame) / config_.camera.frame_rate;
-      clock_.wait_until(
-          Cycles(static_cast<std::int64_t>(due * static_cast<double>(config_.clocks.camera_hz))));
-    }
-    expose(frame);
+    ++counts_.triggers;
+    expose(counts_.taken++);
     sc_core::wait(frame_complete_);
     clock_.wait_until(clock_.cycle_at_or_after(exposed_) + left_sensor_.frame_time());
   }
 }
 
+// While no buffer is free, nothing happens at the triggers; they are accounted for when one is. So the kernel
+// runs out of events when the machine is stuck.
+void Acquisition::expose_at_rate() {
+  next_ = trigger_->exposed(0);
+  for (;;) {
+    clock_.wait_until(next_);
+    wait_for_buffer();
+    drop_passed();
+    if (next_ > clock_.now()) continue;
+    if (note_trigger()) expose(counts_.taken++);
+  }
+}
+
 void Acquisition::wait_for_buffer() {
-  waits_for_buffer_ = true;
-  buffer_wait_began_ = sc_core::sc_time_stamp();
   while (buffers_used_ == static_cast<std::int64_t>(memory_map_.frames.size())) {
     sc_core::wait(buffer_free_);
   }
-  waits_for_buffer_ = false;
-  buffer_wait_ += sc_core::sc_time_stamp() - buffer_wait_began_;
+}
+
+// Triggers before now that have not been taken found no buffer.
+void Acquisition::drop_passed() {
+  while (next_ < clock_.now()) {
+    const Cycles begin = next_;
+    if (!note_trigger()) continue;
+    ++counts_.dropped;
+    left_sensor_.read_out_unheard(begin);
+    right_sensor_.read_out_unheard(begin);
+  }
+}
+
+// Goes on to the trigger after the next one; whether the sensors took that one.
+bool Acquisition::note_trigger() {
+  const Cycles cycle = next_;
+  next_ = trigger_->exposed(++counts_.triggers);
+  const bool taken = !left_sensor_.reads_out_in(cycle) && !right_sensor_.reads_out_in(cycle);
+  if (!taken) ++counts_.missed;
+  return taken;
+}
+
+CameraCounts Acquisition::counts() {
+  if (trigger_) drop_passed();
+  return counts_;
 }
 
 void Acquisition::expose(std::int64_t frame) {
@@ -101,11 +152,6 @@ void Acquisition::expose(std::int64_t frame) {
   dma_right_.start({buffer(frame).right, rows, values, done});
   left_sensor_.read_out(images.left);
   right_sensor_.read_out(images.right);
-}
-
-sc_core::sc_time Acquisition::buffer_wait() const {
-  if (!waits_for_buffer_) return buffer_wait_;
-  return buffer_wait_ + (sc_core::sc_time_stamp() - buffer_wait_began_);
 }
 
 }  // namespace parallax

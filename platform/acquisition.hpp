@@ -3,9 +3,12 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <systemc>
 
+#include "platform/camera_trigger.hpp"
 #include "platform/config/machine_config.hpp"
+#include "platform/frame.hpp"
 #include "platform/machine_input.hpp"
 #include "platform/memory_map.hpp"
 #include "platform/sensor.hpp"
@@ -14,7 +17,9 @@
 namespace parallax {
 
 /// The cameras' side of the machine: two sensors, the DMA engines that write their images, and the frame
-/// buffers in memory. A frame is exposed whenever a buffer is free and its time has come.
+/// buffers in memory. Without a rate of their own the cameras are triggered when a buffer is free. With one
+/// they cannot wait: a frame that finds no buffer when its read-out begins is dropped whole, and a trigger
+/// that finds a sensor reading out is missed. A buffer that becomes free at that very date is free.
 class Acquisition final : public sc_core::sc_module {
  public:
   /// Told of each frame, in order.
@@ -34,12 +39,16 @@ class Acquisition final : public sc_core::sc_module {
   BusMaster& left_master() { return dma_left_.master; }
   BusMaster& right_master() { return dma_right_.master; }
   const Sensor& sensor() const { return left_sensor_; }
-  /// Time in which the cameras waited for a frame buffer, until now.
-  sc_core::sc_time buffer_wait() const;
+  /// Until now.
+  CameraCounts counts();
 
  private:
   void expose_frames();
+  void expose_on_demand();
+  void expose_at_rate();
   void wait_for_buffer();
+  void drop_passed();
+  bool note_trigger();
   void expose(std::int64_t frame);
 
   const MachineConfig& config_;
@@ -58,9 +67,9 @@ class Acquisition final : public sc_core::sc_module {
   std::int64_t buffers_used_ = 0;     // frames from exposure until both images are read
   sc_core::sc_event buffer_free_;
   sc_core::sc_time exposed_;  // date of the last exposure
-  bool waits_for_buffer_ = false;
-  sc_core::sc_time buffer_wait_;        // of the waits that are over
-  sc_core::sc_time buffer_wait_began_;  // of the one under way
+  CameraCounts counts_;
+  std::optional<CameraTrigger> trigger_;  // of cameras with a rate
+  Cycles next_{0};                        // end of the next exposure at that rate
 };
 
 }  // namespace parallax

@@ -26,6 +26,14 @@ struct FrameTimes {
   sc_core::sc_time at_host;  ///< last bit on the wire; results_in_memory when the link is off
 };
 
+/// What became of the cameras' triggers.
+struct CameraCounts {
+  std::int64_t triggers = 0;
+  std::int64_t taken = 0;    ///< frames that found a buffer
+  std::int64_t dropped = 0;  ///< frames that found none
+  std::int64_t missed = 0;   ///< triggers that found a sensor reading out
+};
+
 /// How far each part's work had come at one date, from the beginning of the run.
 struct Activity {
   struct Port {
@@ -34,12 +42,12 @@ struct Activity {
     sc_core::sc_time occupied;  ///< summed over the DMA engine's requests under way
   };
   sc_core::sc_time time;
-  std::vector<Port> ports;       ///< in the order of the memory's ports
-  Cycles camera;                 ///< camera cycles in which a sensor read a frame out
-  sc_core::sc_time buffer_wait;  ///< in which the cameras waited for a frame buffer
-  sc_core::sc_time core;         ///< in which the core worked on a frame or was about to be started
-  Cycles wire;                   ///< link cycles with a packet on the wire
-  Cycles host;                   ///< link cycles in which the host was taking pixels
+  std::vector<Port> ports;  ///< in the order of the memory's ports
+  Cycles camera;            ///< camera cycles in which a sensor read a frame out
+  CameraCounts cameras;
+  sc_core::sc_time core;  ///< in which the core worked on a frame or was about to be started
+  Cycles wire;            ///< link cycles with a packet on the wire
+  Cycles host;            ///< link cycles in which the host was taking pixels
 };
 
 /// What comes out for one frame. Images are row-major and of the machine's size; empty for a timing-only

@@ -206,7 +206,7 @@ Activity Machine::activity() {
         {memory_.statistics(port).bytes(), memory_.bus_taken(port), engines[port]->occupied()});
   }
   activity.camera = sensor().busy();
-  activity.buffer_wait = acquisition_.buffer_wait();
+  activity.cameras = acquisition_.counts();
   activity.core = core_taken();
   activity.wire = link().wire_busy();
   activity.host = link().host_busy();

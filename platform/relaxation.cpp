@@ -59,7 +59,7 @@ std::vector<Relaxation> relaxations(const MachineConfig& config, const nlohmann:
       {"camera",
        "any rate, cable and pixel clock",
        {fmt::format("clocks.camera_hz={}", kFastestClock), "camera.bytes_per_second=1000000000000",
-        "camera.frame_rate=0", "camera.row_blanking=0", "camera.frame_blanking=0"}},
+        "camera.frame_rate=0", "camera.jitter_ns=0", "camera.row_blanking=0", "camera.frame_blanking=0"}},
       {"buffers",
        "twice as many for frames and results",
        {fmt::format("camera.frame_buffers={}", std::min(2 * config.camera.frame_buffers, 64U)),

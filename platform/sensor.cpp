@@ -20,6 +20,15 @@ void Sensor::read_out(SensorImage image) {
   go_on_.notify();
 }
 
+void Sensor::read_out_unheard(Cycles begin) {
+  free_ = begin + frame_time();
+  busy_ += frame_time();
+}
+
+bool Sensor::reads_out_in(Cycles cycle) const {
+  return !exposed_.empty() || at_ < image_bytes() || std::max(free_, last_write_) > cycle;
+}
+
 Cycles Sensor::frame_time() const { return config_.row * config_.height + config_.frame_blanking; }
 
 Cycles Sensor::busy() const { return busy_ - std::max(Cycles(0), free_ - clock_.now()); }

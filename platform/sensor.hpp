@@ -37,6 +37,11 @@ class Sensor final : public sc_core::sc_module, public Actor {
 
   /// Starts to read out an image, after the one before is out.
   void read_out(SensorImage image);
+  /// Reads out a frame that nobody takes, beginning in a cycle in which the sensor was free: time passes, no
+  /// bytes.
+  void read_out_unheard(Cycles begin);
+  /// Whether it reads out in `cycle`, which has come.
+  bool reads_out_in(Cycles cycle) const;
   /// Pixel clocks of one frame, blanking included.
   Cycles frame_time() const;
   /// Pixel clocks spent on frames, blanking included, until now.

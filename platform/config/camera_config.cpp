@@ -18,14 +18,30 @@ void CameraConfig::validate() const {
     throw UserError(
         fmt::format("camera.frame_rate = {}: must be 0 or at least {} frames/s", frame_rate, kSlowestRate));
   }
+  if (jitter_ns > 0 && frame_rate == 0) {
+    throw UserError(fmt::format(
+        "camera.jitter_ns = {}: needs a camera.frame_rate above 0, exposures have no dates to miss",
+        jitter_ns));
+  }
+  if (jitter_ns * frame_rate >= 1e9) {
+    throw UserError(
+        fmt::format("camera.jitter_ns = {}: must be below the period of camera.frame_rate, {:.0f} ns",
+                    jitter_ns, 1e9 / frame_rate));
+  }
 }
 
 void describe(Schema& schema, CameraConfig& config) {
-  schema.real("camera.frame_rate", config.frame_rate, {0.0, 100'000.0}, "frames/s",
-              "Frames that the camera delivers at most; it waits while no frame buffer is free. 0: triggered "
-              "as soon as "
-              "one is, which shows the highest rate of the machine.",
-              chosen("shows what the machine itself can do"));
+  schema.real(
+      "camera.frame_rate", config.frame_rate, {0.0, 100'000.0}, "frames/s",
+      "Rate at which the cameras expose, whether the machine keeps up or not: a frame that finds no frame "
+      "buffer free is dropped. 0: triggered as soon as one is, which shows the highest rate of the "
+      "machine.",
+      chosen("shows what the machine itself can do"));
+  schema.integer("camera.jitter_ns", config.jitter_ns, {0, 1'000'000'000}, "ns",
+                 "Largest delay of an exposure's end after its date by camera.frame_rate; uniform from 0.",
+                 chosen("a perfect trigger"));
+  schema.integer("camera.jitter_seed", config.jitter_seed, {0, 4'294'967'295}, "seed",
+                 "Seed of these delays: the same seed gives the same dates.", chosen("any"));
   schema.integer("camera.bytes_per_second", config.bytes_per_second, {1, 1'000'000'000'000}, "B/s",
                  "Rate of the cable of each sensor; the slower of this and the pixel clock sets the pace.",
                  inferred("USB 3.0: 5 Gbit/s less line code and protocol"));

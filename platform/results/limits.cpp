@@ -80,10 +80,11 @@ std::vector<PartLoad> part_loads(const Machine& machine, const SteadyWindow& win
                    camera_clock.seconds(machine.sensor().frame_time())});
   const double elapsed = (last.time - first.time).to_seconds();
   if (config.camera.frame_rate > 0) {
-    // The cameras keep their rate but for the time in which they wait for a buffer.
-    const double waited = (last.buffer_wait - first.buffer_wait).to_seconds();
-    loads.push_back(
-        {"camera_frame_rate", "camera.frame_rate", 1.0 - waited / elapsed, 1.0 / config.camera.frame_rate});
+    // The cameras set the pace as far as their frames are taken.
+    const std::int64_t triggers = last.cameras.triggers - first.cameras.triggers;
+    const std::int64_t taken = last.cameras.taken - first.cameras.taken;
+    loads.push_back({"camera_frame_rate", "camera.frame_rate", ratio(Cycles(taken), Cycles(triggers)),
+                     1.0 / config.camera.frame_rate});
   }
 
   const std::vector<std::uint32_t> places = machine.dma_places();

@@ -242,6 +242,11 @@ MetricGroup measure(const Machine& machine, const RunTotals& totals, int image_w
       {"late_bursts", static_cast<std::int64_t>(machine.sensor().late_bursts()), "bursts",
        "Bursts of the left sensor that found its FIFO full: the memory did not keep up with the read-out.",
        "the whole run"});
+  const CameraCounts& cameras = machine.activities().back().cameras;
+  camera.add({"dropped_frames", cameras.dropped, "frames", "Frames that found no frame buffer free.",
+              "the whole run"});
+  camera.add({"missed_triggers", cameras.missed, "triggers", "Triggers that found a sensor reading out.",
+              "the whole run"});
   add_performance(root, machine, window);
   add_latency(root, machine, window);
   add_limit(root, machine, window);

@@ -109,6 +109,18 @@ TEST_F(BadInput, Configuration) {
   EXPECT_EQ(pair_error("--set camera.frame_rate=1e-9")
                 .rfind("camera.frame_rate = 1e-09: must be 0 or at least 0.001 frames/s", 0),
             0U);
+  EXPECT_EQ(pair_error("--set camera.jitter_ns=5"),
+            "camera.jitter_ns = 5: needs a camera.frame_rate above 0, exposures have no dates to miss "
+            "(camera.jitter_ns: --set camera.jitter_ns=5)");
+  EXPECT_EQ(
+      pair_error("--set camera.jitter_ns=10000000 --set camera.frame_rate=100"),
+      "camera.jitter_ns = 10000000: must be below the period of camera.frame_rate, 10000000 ns "
+      "(camera.frame_rate: --set camera.frame_rate=100, camera.jitter_ns: --set camera.jitter_ns=10000000)");
+  // 48 rows of 64 pixels and 32 of blanking, and 2048 after the frame.
+  EXPECT_EQ(
+      error("--size 64x48 --set clocks.camera_hz=1e6 --set camera.frame_rate=151"),
+      "camera.frame_rate = 151: reading out 64x48 px takes 6656 pixel clocks, which allows at most 150.24 "
+      "frames/s");
   EXPECT_NE(pair_error("--preset scenescan-por").find("scenescan-pro"), std::string::npos);
 }
 

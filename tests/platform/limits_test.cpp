@@ -64,6 +64,22 @@ TEST_F(Limits, RatesEqualHandCalculation) {
   EXPECT_NEAR(rate(run("--size 64x48 --set clocks.camera_hz=1e6")), 1e6 / (48 * 96 + 2048), 1e-3);
 }
 
+// A host that takes 325.5 frames a second, and cameras at 400.
+TEST_F(Limits, CamerasThatCannotWaitDropWhatFindsNoBuffer) {
+  const std::string slow = "--size 64x48 --timing-frames 200 --set link.host_pixel_rate=1e6 ";
+  const auto count = [](const nlohmann::json& tree, const char* name) {
+    return tree["camera"][name]["value"].get<std::int64_t>();
+  };
+  const nlohmann::json fast = run(slow + "--set camera.frame_rate=400");
+  EXPECT_EQ(limit(fast), "host");
+  EXPECT_NEAR(rate(fast), 1e6 / 3072, 1);
+  EXPECT_NEAR(static_cast<double>(count(fast, "dropped_frames")), 200 * (400 * 3072 / 1e6 - 1), 8);
+  EXPECT_EQ(count(fast, "missed_triggers"), 0);
+  const nlohmann::json kept = run(slow + "--set camera.frame_rate=300 --set camera.jitter_ns=300000");
+  EXPECT_EQ(count(kept, "dropped_frames"), 0);
+  EXPECT_NEAR(rate(kept), 300, 2);
+}
+
 TEST_F(Limits, TheSteadyStateDoesNotDependOnItsLength) {
   const std::string slow =
       "--size 64x48 --set memory.bytes_per_cycle=1 --set clocks.memory_hz=50e6 --timing-frames ";
