@@ -7,6 +7,7 @@
 
 #include "modules/pixel.hpp"
 #include "platform/sensor.hpp"
+#include "tlm/dram_controller.hpp"
 
 namespace parallax {
 
@@ -43,6 +44,8 @@ struct Activity {
   };
   sc_core::sc_time time;
   std::vector<Port> ports;  ///< in the order of the memory's ports
+  Cycles memory;            ///< memory cycles in which it was at work
+  DramStatistics dram;      ///< when the memory is a DRAM
   Cycles camera;            ///< camera cycles in which a sensor read a frame out
   CameraCounts cameras;
   sc_core::sc_time core;  ///< in which the core worked on a frame or was about to be started

@@ -4,26 +4,36 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <memory>
 #include <utility>
 
 #include "modules/output_packing.hpp"
 #include "platform/engine_config.hpp"
+#include "tlm/bus_scheduler.hpp"
+#include "tlm/dram_scheduler.hpp"
 
 namespace parallax {
 namespace {
 
-MemoryTiming memory_timing(const MemoryConfig& config, bool holds_data) {
-  MemoryTiming timing;
-  timing.holds_data = holds_data;
-  timing.size = Bytes(config.size_bytes);
+std::unique_ptr<MemoryScheduler> memory_scheduler(const MemoryConfig& config, const ClockDomain& clock) {
+  if (config.model == MemoryModel::kDram) return std::make_unique<DramScheduler>(config.dram_memory());
+  BusTiming timing;
   timing.bytes_per_cycle = Bytes(config.bytes_per_cycle);
   timing.efficiency = config.efficiency;
   timing.latency = Cycles(config.latency_cycles);
-  timing.queue_depth = config.queue_depth;
-  timing.arbitration = config.arbitration == Arbitration::kRoundRobin
-                           ? MemoryTiming::Arbitration::kRoundRobin
-                           : MemoryTiming::Arbitration::kFixedPriority;
-  return timing;
+  timing.arbitration = config.arbitration;
+  return std::make_unique<BusScheduler>(timing, clock);
+}
+
+// None when another memory is brought along.
+std::unique_ptr<Memory> make_memory(const MachineConfig& config, const MachineInput& input,
+                                    const ClockDomain& clock) {
+  if (input.bind_memory) return nullptr;
+  MemoryTargetConfig target;
+  target.size = Bytes(config.memory.size_bytes);
+  target.queue_depth = config.memory.queue_depth;
+  target.holds_data = !input.timing_only;
+  return std::make_unique<Memory>("memory", target, memory_scheduler(config.memory, clock));
 }
 
 }  // namespace
@@ -46,7 +56,7 @@ Machine::Machine(const sc_core::sc_module_name& name, const MachineConfig& confi
       camera_clock_("camera", Hertz(config.clocks.camera_hz)),
       link_clock_("link", Hertz(config.clocks.link_hz)),
       dataflow_("dataflow"),
-      memory_("memory", memory_timing(config.memory, !input.timing_only), memory_clock_),
+      memory_(make_memory(config, input, memory_clock_)),
       acquisition_("acquisition", config_, input_, memory_map_, camera_clock_, dataflow_,
                    {[this](std::int64_t, bool values) {
                       values_.push_back(values);
@@ -56,7 +66,14 @@ Machine::Machine(const sc_core::sc_module_name& name, const MachineConfig& confi
                     [this](std::int64_t frame) { frame_in_memory(frame); }}),
       core_("core", config_, input_, {tiles_, map(), memory_map_.map}, core_clock_, dataflow_),
       transmission_("transmission", config_, link_clock_, dataflow_) {
-  for (BusMaster* master : masters()) master->socket.bind(memory_.socket);
+  const std::vector<BusMaster*> all = masters();
+  for (std::size_t port = 0; port < all.size(); ++port) {
+    if (memory_) {
+      all[port]->socket.bind(memory_->socket);
+    } else {
+      input.bind_memory(all[port]->socket, port_names()[port]);
+    }
+  }
   core_.pipeline().output().tap([this](const Disparity* row) { take_row(row); });
   SC_HAS_PROCESS(Machine);
   SC_METHOD(start_core);
@@ -182,6 +199,11 @@ std::vector<BusMaster*> Machine::masters() {
           &transmission_.master()};
 }
 
+std::vector<const BusMaster*> Machine::ports() const {
+  const std::vector<BusMaster*> all = const_cast<Machine&>(*this).masters();
+  return {all.begin(), all.end()};
+}
+
 std::vector<std::uint32_t> Machine::dma_places() const {
   // A reading engine has no more requests under way than its FIFO can take answers.
   const auto reading = [](const DmaPortConfig& port) {
@@ -201,9 +223,13 @@ Activity Machine::activity() {
   Activity activity;
   activity.time = sc_core::sc_time_stamp();
   const std::vector<BusMaster*> engines = masters();
-  for (std::size_t port = 0; port < memory_.ports(); ++port) {
-    activity.ports.push_back(
-        {memory_.statistics(port).bytes(), memory_.bus_taken(port), engines[port]->occupied()});
+  for (std::size_t port = 0; port < engines.size(); ++port) {
+    activity.ports.push_back({engines[port]->statistics().bytes, memory_ ? memory_->bus_taken(port) : Cycles(0),
+                              engines[port]->occupied()});
+  }
+  if (memory_) {
+    activity.memory = memory_->at_work();
+    if (const DramStatistics* commands = memory_->commands()) activity.dram = *commands;
   }
   activity.camera = sensor().busy();
   activity.cameras = acquisition_.counts();

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <memory>
 #include <systemc>
 #include <vector>
 
@@ -40,7 +41,10 @@ class Machine final : public sc_core::sc_module {
   std::vector<std::uint32_t> dma_places() const;
   const Pipeline& pipeline() const { return core_.pipeline(); }
   const Dataflow& dataflow() const { return dataflow_; }
-  const Memory& memory() const { return memory_; }
+  /// None when the run brought another memory along.
+  const Memory* memory() const { return memory_.get(); }
+  /// The DMA engines' side of each memory port, in their order.
+  std::vector<const BusMaster*> ports() const;
   const TilePlan& tiles() const { return tiles_; }
   /// The rectification map as it lies in memory: cut for the tiles.
   const EncodedMap& map() const { return tiles_.tiles.size() > 1 ? tiled_map_ : *input_.map; }
@@ -62,7 +66,7 @@ class Machine final : public sc_core::sc_module {
   void deliver(std::int64_t frame, const std::vector<std::uint8_t>& bytes);
   std::uint64_t output_buffer(std::int64_t frame) const;
   void start_of_simulation() override;
-  std::vector<BusMaster*> masters();  // in the order of the memory's ports
+  std::vector<BusMaster*> masters();
   Activity activity();
   sc_core::sc_time core_taken() const;
 
@@ -76,7 +80,7 @@ class Machine final : public sc_core::sc_module {
   ClockDomain camera_clock_;
   ClockDomain link_clock_;
   Dataflow dataflow_;
-  Memory memory_;
+  const std::unique_ptr<Memory> memory_;
   Acquisition acquisition_;
   StereoCore core_;
   Transmission transmission_;

@@ -9,7 +9,7 @@
 
 namespace parallax {
 
-/// Where the buffers lie in memory, each on a 4 KiB boundary, one after the other.
+/// Where the buffers lie in memory, as MachineConfig::memory_map says.
 struct MemoryMap {
   struct FrameBuffer {
     std::uint64_t left;
@@ -18,10 +18,9 @@ struct MemoryMap {
   std::vector<FrameBuffer> frames;     ///< width * height bytes per image
   std::uint64_t map = 0;               ///< the compressed rectification map
   std::vector<std::uint64_t> outputs;  ///< packed results (modules/output_packing.hpp)
-  std::uint64_t end = 0;               ///< first byte after all buffers
 };
 
-/// Throws UserError when the memory is too small, with the arithmetic.
+/// Throws UserError when a buffer does not fit into the memory, or two overlap, with the arithmetic.
 MemoryMap lay_out_memory(const MachineConfig& config, int width, int height, const EncodedMap& map);
 
 }  // namespace parallax

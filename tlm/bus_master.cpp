@@ -85,10 +85,15 @@ void BusMaster::answered(::tlm::tlm_generic_payload& payload, const sc_core::sc_
   const auto request = find(payload);
   const sc_core::sc_time& now = sc_core::sc_time_stamp();
   auto past = ending_.begin();
-  for (; past != ending_.end() && past->end < now; ++past) occupied_ += past->end - past->begin;
+  for (; past != ending_.end() && past->end < now; ++past) {
+    occupied_ += past->end - past->begin;
+    past_.bytes += past->bytes;
+    ++past_.requests;
+  }
   ending_.erase(ending_.begin(), past);
   const auto later = std::find_if(ending_.rbegin(), ending_.rend(), [&](const Span& s) { return s.end <= time; });
-  ending_.insert(later.base(), {request->time, time});
+  ending_.insert(later.base(), {request->time, time, payload.get_data_length()});
+  latencies_.add(time - request->time);
   requests_.erase(request);
   payload.release();
   client_.answered(time, was_full);
@@ -109,6 +114,17 @@ sc_core::sc_time BusMaster::occupied() const {
     if (request.time < now) sum += now - request.time;
   }
   return sum;
+}
+
+BusStatistics BusMaster::statistics() const {
+  const sc_core::sc_time& now = sc_core::sc_time_stamp();
+  BusStatistics all = past_;
+  for (const Span& span : ending_) {
+    if (span.end > now) continue;
+    all.bytes += span.bytes;
+    ++all.requests;
+  }
+  return all;
 }
 
 void BusMaster::read_now(std::uint64_t address, std::uint8_t* data, std::size_t size) {

@@ -8,9 +8,16 @@
 #include <tlm>
 #include <vector>
 
+#include "tlm/latency_histogram.hpp"
 #include "tlm/payload_pool.hpp"
 
 namespace parallax {
+
+/// What a bus master's requests have moved.
+struct BusStatistics {
+  std::uint64_t bytes = 0;
+  std::uint64_t requests = 0;
+};
 
 /// Told by a bus master how its requests fare.
 class BusClient {
@@ -53,6 +60,10 @@ class BusMaster final : public sc_core::sc_module {
   /// Time that requests were under way until now, summed over them: at most `outstanding` times the present
   /// time.
   sc_core::sc_time occupied() const;
+  /// Of requests answered until now.
+  BusStatistics statistics() const;
+  /// From request to answer, of all requests whose answer is known.
+  const LatencyHistogram& latencies() const { return latencies_; }
 
  private:
   struct Request {
@@ -62,6 +73,7 @@ class BusMaster final : public sc_core::sc_module {
   struct Span {
     sc_core::sc_time begin;
     sc_core::sc_time end;
+    std::uint64_t bytes;
   };
 
   ::tlm::tlm_sync_enum nb_transport_bw(::tlm::tlm_generic_payload& payload, ::tlm::tlm_phase& phase,
@@ -78,6 +90,8 @@ class BusMaster final : public sc_core::sc_module {
   std::vector<Request> requests_;                      // not answered, in order
   std::vector<Span> ending_;                           // of those whose answer is known and was to come, by `end`
   sc_core::sc_time occupied_;                          // by those before
+  BusStatistics past_;                                 // likewise
+  LatencyHistogram latencies_;
   ::tlm::tlm_generic_payload* requesting_ = nullptr;   // sent, END_REQ not seen
 };
 

@@ -24,13 +24,14 @@ sc_core::sc_time time(Picoseconds date) {
 
 }  // namespace
 
-Memory::Memory(const sc_core::sc_module_name& name, const MemoryTiming& timing, const ClockDomain& clock)
-    : sc_module(name), timing_(timing), clock_(clock) {
-  if (timing.holds_data) {
+Memory::Memory(const sc_core::sc_module_name& name, const MemoryTargetConfig& config,
+               std::unique_ptr<MemoryScheduler> scheduler)
+    : sc_module(name), config_(config), scheduler_(std::move(scheduler)), queues_(config.queue_depth) {
+  if (config.holds_data) {
     // calloc: pages that nobody writes take no memory.
-    bytes_.reset(static_cast<std::uint8_t*>(std::calloc(static_cast<std::size_t>(timing.size.count()), 1)));
+    bytes_.reset(static_cast<std::uint8_t*>(std::calloc(static_cast<std::size_t>(config.size.count()), 1)));
     if (bytes_ == nullptr) {
-      throw UserError(fmt::format("this computer cannot hold a memory of {} bytes", timing.size.count()));
+      throw UserError(fmt::format("this computer cannot hold a memory of {} bytes", config.size.count()));
     }
   }
   socket.register_nb_transport_fw(this, &Memory::nb_transport_fw);
@@ -45,34 +46,47 @@ Memory::Memory(const sc_core::sc_module_name& name, const MemoryTiming& timing, 
 void Memory::Free::operator()(void* memory) const { std::free(memory); }
 
 void Memory::end_of_elaboration() {
-  arbiter_.ports.resize(socket.size());
-  arbiter_.arrivals.resize(socket.size(), kNever);
-  if (socket.size() > 0) arbiter_.last_served = socket.size() - 1;  // the first turn is the first port's
+  ports_.resize(socket.size());
+  queues_.set_ports(socket.size());
+  scheduler_->bind(queues_);
+}
+
+// Decisions are the same whenever they are made; asking for one is no change.
+void Memory::serve_until(Picoseconds date, bool inclusive) const {
+  scheduler_->serve_until(date, inclusive, const_cast<Memory&>(*this));
 }
 
 const MemoryPortStatistics& Memory::statistics(std::size_t port) const {
   const Picoseconds now = present();
   serve_until(now, false);
-  count_answers(arbiter_.ports[port], now);
-  return arbiter_.ports[port].statistics;
+  count_answers(ports_[port], now);
+  return ports_[port].statistics;
 }
 
 Cycles Memory::bus_taken(std::size_t port) const {
-  const Cycles bus = statistics(port).bus;
-  if (port != arbiter_.last_served) return bus;
-  return bus - std::max(Cycles(0), arbiter_.bus_free - clock_.now());
+  serve_until(present(), false);
+  return scheduler_->bus_taken(port, present());
 }
 
-double Memory::usable_bandwidth() const {
-  return static_cast<double>(timing_.bytes_per_cycle.count()) * static_cast<double>(timing_.efficiency) /
-         100.0 * static_cast<double>(clock_.frequency().count());
+Cycles Memory::at_work() const {
+  serve_until(present(), false);
+  return scheduler_->at_work(present());
+}
+
+const DramStatistics* Memory::commands() const {
+  serve_until(present(), false);
+  return scheduler_->commands();
+}
+
+Cycles Memory::cycle_at_or_after(const sc_core::sc_time& time) const {
+  return scheduler_->cycle_at_or_after(date(time));
 }
 
 ::tlm::tlm_sync_enum Memory::nb_transport_fw(int id, ::tlm::tlm_generic_payload& payload,
                                              ::tlm::tlm_phase& phase, sc_core::sc_time& delay) {
   const Picoseconds now = present();
   const auto index = static_cast<std::size_t>(id);
-  Port& port = arbiter_.ports[index];
+  Port& port = ports_[index];
   if (phase == ::tlm::END_RESP) {
     port.answering = false;
     port.answered_until = now + date(delay);
@@ -83,50 +97,43 @@ double Memory::usable_bandwidth() const {
     SC_REPORT_ERROR("/parallax/memory/phase", "a request must begin with BEGIN_REQ and end with END_RESP");
     return ::tlm::TLM_COMPLETED;
   }
-  if (port.refused != nullptr) {
+  if (queues_.has_refused(index)) {
     SC_REPORT_ERROR("/parallax/memory/phase", "a second BEGIN_REQ before the END_REQ of the first");
     return ::tlm::TLM_COMPLETED;
   }
   payload.acquire();
-  if (port.queue.size() >= timing_.queue_depth) serve_until(now, false);
-  if (port.queue.size() >= timing_.queue_depth) {
-    port.refused = &payload;
-    port.refused_arrival = now + date(delay);
-    port.refused_transfer = transfer_time(payload);
-    ++arbiter_.refused;
+  const MemoryRequest request{&payload, now + date(delay)};
+  if (!queues_.room(index)) serve_until(now, false);
+  if (!queues_.room(index)) {
+    queues_.refuse(index, request);
     wake_in_time();
     return ::tlm::TLM_ACCEPTED;
   }
-  enqueue(index, {&payload, now + date(delay), transfer_time(payload)});
+  enqueue(index, request);
   phase = ::tlm::END_REQ;
   return ::tlm::TLM_UPDATED;
 }
 
 void Memory::b_transport(int id, ::tlm::tlm_generic_payload& payload, sc_core::sc_time& delay) {
   sc_core::sc_event done;
-  enqueue(static_cast<std::size_t>(id),
-          {&payload, present() + date(delay), transfer_time(payload), &done});
+  enqueue(static_cast<std::size_t>(id), {&payload, present() + date(delay), &done});
   delay = sc_core::SC_ZERO_TIME;
   sc_core::wait(done);
 }
 
-void Memory::enqueue(std::size_t id, const Request& request) {
-  Ring<Request>& queue = arbiter_.ports[id].queue;
-  if (queue.empty()) {
-    arbiter_.arrivals[id] = request.arrival;
-    arbiter_.first_arrival = std::min(arbiter_.first_arrival, request.arrival);
-  }
-  queue.push_back(request);
+void Memory::enqueue(std::size_t id, const MemoryRequest& request) {
+  const bool first = queues_.empty(id);
+  queues_.push(id, request);
   // Its answer comes after those before it in the queue, and after its arrival.
-  if (queue.size() == 1 && request.arrival < wake_date_) wake_in_time();
+  if (first && request.arrival < wake_date_) wake_in_time();
 }
 
 unsigned Memory::transport_dbg(int, ::tlm::tlm_generic_payload& payload) {
-  return timing_.holds_data && access(payload) ? payload.get_data_length() : 0;
+  return config_.holds_data && access(payload) ? payload.get_data_length() : 0;
 }
 
 bool Memory::access(::tlm::tlm_generic_payload& payload) const {
-  const auto size = static_cast<std::uint64_t>(timing_.size.count());
+  const auto size = static_cast<std::uint64_t>(config_.size.count());
   if (payload.get_address() > size || payload.get_data_length() > size - payload.get_address()) {
     payload.set_response_status(::tlm::TLM_ADDRESS_ERROR_RESPONSE);
     return false;
@@ -140,71 +147,19 @@ bool Memory::access(::tlm::tlm_generic_payload& payload) const {
     return false;
   }
   payload.set_response_status(::tlm::TLM_OK_RESPONSE);
-  if (!timing_.holds_data || payload.get_extension<TrafficOnly>() != nullptr) return true;
+  if (!config_.holds_data || payload.get_extension<TrafficOnly>() != nullptr) return true;
   std::uint8_t* place = bytes_.get() + payload.get_address();
   if (payload.is_read()) std::memcpy(payload.get_data_ptr(), place, payload.get_data_length());
   if (payload.is_write()) std::memcpy(place, payload.get_data_ptr(), payload.get_data_length());
   return true;
 }
 
-Cycles Memory::transfer_time(const ::tlm::tlm_generic_payload& payload) {
-  const std::int64_t bytes = payload.get_data_length();
-  if (bytes == 0) return Cycles(1);  // not allowed, but even this is over some time after its arrival
-  const std::int64_t per_cycle = timing_.bytes_per_cycle.count() * timing_.efficiency;
-  if (bytes != last_length_) last_transfer_ = Cycles((bytes * 100 + per_cycle - 1) / per_cycle);
-  last_length_ = bytes;
-  return last_transfer_;
-}
-
-// When the bus is free and a request is there; needs one that waits.
-Cycles Memory::next_edge() const {
-  const Picoseconds first = arbiter_.first_arrival;
-  return first > arbiter_.bus_free_date ? clock_.cycle_at_or_after(first) : arbiter_.bus_free;
-}
-
-// The next port, in the arbiter's order, with a request that has arrived by `date`; needs one.
-std::size_t Memory::choose(Picoseconds date) const {
-  const std::vector<Picoseconds>& arrivals = arbiter_.arrivals;
-  const bool in_turn = timing_.arbitration == MemoryTiming::Arbitration::kRoundRobin;
-  std::size_t id = in_turn ? arbiter_.last_served + 1 : 0;
-  for (;; ++id) {
-    if (id == arrivals.size()) id = 0;
-    if (arrivals[id] <= date) return id;
-  }
-}
-
-// Gives the bus to all requests whose turn comes before `date`, or then.
-void Memory::serve_until(Picoseconds date, bool inclusive) const {
-  while (arbiter_.first_arrival <= date) {
-    const Cycles edge = next_edge();
-    const Picoseconds at = clock_.date_of(edge);
-    if (at > date || (at == date && !inclusive)) return;
-    serve(choose(at), edge);
-  }
-}
-
-void Memory::serve(std::size_t id, Cycles edge) const {
-  Port& port = arbiter_.ports[id];
-  const Request request = port.queue.front();
-  port.queue.pop_front();
+void Memory::served(std::size_t port, const MemoryRequest& request) {
   access(*request.payload);
-  MemoryPortStatistics& statistics = port.statistics;
+  MemoryPortStatistics& statistics = ports_[port].statistics;
   ++statistics.requests;
   (request.payload->is_write() ? statistics.written_bytes : statistics.read_bytes) +=
       request.payload->get_data_length();
-  statistics.bus += request.transfer;
-  arbiter_.last_served = id;
-  arbiter_.bus_free = edge + request.transfer;
-  arbiter_.bus_free_date = clock_.date_of(arbiter_.bus_free);
-  arbiter_.answers.push_back({request, clock_.date_of(arbiter_.bus_free + timing_.latency), id});
-  if (port.refused != nullptr) {
-    ::tlm::tlm_generic_payload& taken = *std::exchange(port.refused, nullptr);
-    --arbiter_.refused;
-    port.queue.push_back({&taken, port.refused_arrival, port.refused_transfer});
-    arbiter_.taken.push_back({id, &taken, port.refused_arrival});
-  }
-  arbiter_.arrivals[id] = port.queue.empty() ? kNever : port.queue.front().arrival;
-  arbiter_.first_arrival = *std::min_element(arbiter_.arrivals.begin(), arbiter_.arrivals.end());
 }
 
 void Memory::run() {
@@ -213,10 +168,10 @@ void Memory::run() {
   wake_date_ = kNever;
   serve_until(now, std::exchange(inclusive_, false));
   end_requests(now);
-  while (!arbiter_.answers.empty()) {
-    const Answer answer = arbiter_.answers.front();
-    arbiter_.answers.pop_front();
-    Port& port = arbiter_.ports[answer.port];
+  while (!answers_.empty()) {
+    const Answer answer = answers_.front();
+    answers_.pop_front();
+    Port& port = ports_[answer.port];
     if (port.answering || !port.held.empty()) {
       port.held.push_back(answer);
       ++held_;
@@ -224,8 +179,8 @@ void Memory::run() {
       begin_response(answer, now);
     }
   }
-  for (std::size_t id = 0; held_ != 0 && id < arbiter_.ports.size(); ++id) {
-    Port& port = arbiter_.ports[id];
+  for (std::size_t id = 0; held_ != 0 && id < ports_.size(); ++id) {
+    Port& port = ports_[id];
     while (!port.held.empty() && !port.answering) {
       const Answer answer = port.held.front();
       port.held.pop_front();
@@ -238,16 +193,16 @@ void Memory::run() {
 }
 
 void Memory::end_requests(Picoseconds now) {
-  if (arbiter_.taken.empty()) return;
-  for (const Taken& taken : std::exchange(arbiter_.taken, {})) {
+  if (!queues_.any_newly_taken()) return;
+  for (const MemoryQueues::Taken& taken : queues_.newly_taken()) {
     ::tlm::tlm_phase phase = ::tlm::END_REQ;
-    sc_core::sc_time delay = time(std::max(now, taken.arrival) - now);
-    socket[static_cast<int>(taken.port)]->nb_transport_bw(*taken.payload, phase, delay);
+    sc_core::sc_time delay = time(std::max({now, taken.date, taken.request.arrival}) - now);
+    socket[static_cast<int>(taken.port)]->nb_transport_bw(*taken.request.payload, phase, delay);
   }
 }
 
 void Memory::begin_response(const Answer& answer, Picoseconds now) {
-  Port& port = arbiter_.ports[answer.port];
+  Port& port = ports_[answer.port];
   const Picoseconds at = std::max({now, answer.ready, port.answered_until});
   count_answers(port, now);
   port.told.push_back({at, at - answer.request.arrival});
@@ -274,19 +229,18 @@ void Memory::count_answers(Port& port, Picoseconds now) const {
   }
 }
 
-// Notifies the next event: no later than the next answer is due, and than somebody has to be told that his request
-// is taken.
+// Notifies the next event: no later than the next answer is due, and than somebody has to be told that his
+// request is taken.
 void Memory::wake_in_time() {
-  if (running_ || arbiter_.first_arrival == kNever) return;  // run() ends with this
-  // The answer to whoever would be served next as things are. A request that changes this comes through here.
-  const Cycles edge = next_edge();
-  const Picoseconds at = clock_.date_of(edge);
-  const Port& port = arbiter_.ports[choose(at)];
-  wake_at(clock_.date_of(edge + port.queue.front().transfer + timing_.latency));
-  if (arbiter_.refused != 0) {
+  if (running_) return;  // run() ends with this
+  if (const Picoseconds answer = scheduler_->next_answer(); answer != kNever) {
+    wake_at(std::max(answer, present()));
+  }
+  if (queues_.any_refused()) {
     const Picoseconds now = present();
-    inclusive_ = at <= now;
-    wake_at(std::max(at, now));
+    const Picoseconds place = scheduler_->next_place();
+    inclusive_ = place <= now;
+    wake_at(std::max(place, now));
   }
 }
 

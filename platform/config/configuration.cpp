@@ -5,6 +5,7 @@
 
 #include <cctype>
 
+#include "platform/config/dram_device.hpp"
 #include "platform/config/preset.hpp"
 #include "platform/config/preset_file.hpp"
 #include "tlm/error.hpp"
@@ -46,6 +47,37 @@ RawValue iterations_for(std::int64_t range, const Schema& schema) {
   return iterations;
 }
 
+/// The devices that memory.device names; what is given for their keys otherwise wins.
+void add_dram_device(RawConfig& raw, const std::vector<std::filesystem::path>& preset_folders) {
+  const auto device = raw.find("memory.device");
+  if (device == raw.end()) return;
+  const auto* value = std::get_if<ConfigValue>(&device->second.value);
+  const auto* name = value == nullptr ? nullptr : std::get_if<std::string>(value);
+  if (name == nullptr || name->empty()) return;  // the schema says what is wrong
+  try {
+    RawConfig keys = read_dram_device(*name, preset_folders);
+    raw.merge(keys);
+  } catch (const UserError& error) {
+    throw UserError(fmt::format("{}: memory.device: {}", device->second.origin, error.what()));
+  }
+}
+
+/// A bus's speed means nothing to a DRAM: who changes it is told.
+void refuse_bus_keys(const RawConfig& raw, const MachineConfig& machine) {
+  if (machine.memory.model != MemoryModel::kDram) return;
+  const auto refuse = [&raw](const std::string& key, const std::string& instead) {
+    throw UserError(fmt::format("{}: {} has no effect with memory.model = \"dram\"; set {}, or memory.model = \"bus\"",
+                                raw.at(key).origin, key, instead));
+  };
+  const MachineConfig defaults;  // which a preset that lists all keys has, too
+  if (machine.memory.bytes_per_cycle != defaults.memory.bytes_per_cycle) {
+    refuse("memory.bytes_per_cycle", "memory.device or dram.bus_bytes");
+  }
+  if (machine.clocks.memory_hz != defaults.clocks.memory_hz) {
+    refuse("clocks.memory_hz", "memory.device or dram.clock_period_ps");
+  }
+}
+
 }  // namespace
 
 Configuration load_configuration(const ConfigurationRequest& request,
@@ -60,7 +92,9 @@ Configuration load_configuration(const ConfigurationRequest& request,
     auto [key, value] = read_assignment(assignment);
     raw[key] = std::move(value);
   }
+  add_dram_device(raw, preset_folders);
   schema.apply(raw);
+  refuse_bus_keys(raw, result.machine);
   if (request.disparity_range) {
     // The range counts in the parallelism that is in effect by now.
     raw["matching.iterations"] = iterations_for(*request.disparity_range, schema);

@@ -73,15 +73,25 @@ void validate(const DramTiming& timing) {
                       timing.rfc + timing.rp_all));
 }
 
-DramTiming load_dram_device(const std::string& name,
-                            const std::vector<std::filesystem::path>& preset_folders) {
+RawConfig read_dram_device(const std::string& name,
+                           const std::vector<std::filesystem::path>& preset_folders) {
   std::vector<std::filesystem::path> folders;
   for (const std::filesystem::path& folder : preset_folders) folders.push_back(folder / "memory");
+  RawConfig values = load_preset(name, folders);
+  DramTiming timing;  // so that nothing but a device's keys gets through
+  Schema schema;
+  describe(schema, timing);
+  schema.apply(values);
+  validate(timing);
+  return values;
+}
+
+DramTiming load_dram_device(const std::string& name,
+                            const std::vector<std::filesystem::path>& preset_folders) {
   DramTiming timing;
   Schema schema;
   describe(schema, timing);
-  schema.apply(load_preset(name, folders));
-  validate(timing);
+  schema.apply(read_dram_device(name, preset_folders));
   return timing;
 }
 

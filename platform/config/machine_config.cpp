@@ -9,6 +9,7 @@ namespace parallax {
 void MachineConfig::validate() const {
   image.validate();
   camera.validate();
+  memory.validate();
   dma.validate();
   link.validate();
   tiles.validate();
@@ -29,6 +30,7 @@ void describe(Schema& schema, MachineConfig& config) {
   describe(schema, config.image);
   describe(schema, config.camera);
   describe(schema, config.memory);
+  describe(schema, config.memory_map);
   describe(schema, config.dma);
   describe(schema, config.link);
   describe(schema, config.software);

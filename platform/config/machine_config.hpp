@@ -17,6 +17,7 @@
 #include "platform/config/image_config.hpp"
 #include "platform/config/link_config.hpp"
 #include "platform/config/memory_config.hpp"
+#include "platform/config/memory_map_config.hpp"
 #include "platform/config/pipeline_timing.hpp"
 #include "platform/config/software_config.hpp"
 #include "platform/config/stream_config.hpp"
@@ -30,6 +31,7 @@ struct MachineConfig {
   ImageConfig image;
   CameraConfig camera;
   MemoryConfig memory;
+  MemoryMapConfig memory_map;
   DmaConfig dma;
   LinkConfig link;
   SoftwareConfig software;

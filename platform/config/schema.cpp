@@ -74,6 +74,11 @@ std::optional<ConfigValue> fit(const Key& key, const ConfigValue& value) {
         if (std::all_of(wanted.begin(), wanted.end(), known)) return value;
       }
       break;
+    case KeyType::kText:
+      if (const auto* text = std::get_if<std::string>(&value)) {
+        if (!text->empty()) return value;
+      }
+      break;
   }
   return std::nullopt;
 }
@@ -95,6 +100,8 @@ std::string Key::expected() const {
       return fmt::format("one of {}", fmt::join(names, ", "));
     case KeyType::kNameSet:
       return fmt::format("one or more of {}, separated by commas", fmt::join(names, ", "));
+    case KeyType::kText:
+      return "a text";
   }
   return {};
 }
@@ -105,6 +112,13 @@ void Schema::real(std::string path, double& field, RealRange range, std::string 
   key.reals = range;
   key.get = [&field] { return ConfigValue(field); };
   key.set = [&field](const ConfigValue& value) { field = std::get<double>(value); };
+  add(std::move(key));
+}
+
+void Schema::text(std::string path, std::string& field, std::string documentation, Provenance provenance) {
+  Key key{std::move(path), KeyType::kText, "", std::move(documentation), std::move(provenance)};
+  key.get = [&field] { return ConfigValue(field); };
+  key.set = [&field](const ConfigValue& value) { field = std::get<std::string>(value); };
   add(std::move(key));
 }
 

@@ -33,6 +33,7 @@ enum class KeyType {
   kReal,
   kChoice,   ///< one of its names
   kNameSet,  ///< one or more of its names, "w, nw, n"
+  kText,     ///< any text but none
 };
 
 /// One key, bound to a field of a configuration struct.
@@ -63,6 +64,7 @@ class Schema {
                std::string documentation, Provenance provenance);
   void real(std::string path, double& field, RealRange range, std::string unit, std::string documentation,
             Provenance provenance);
+  void text(std::string path, std::string& field, std::string documentation, Provenance provenance);
   void boolean(std::string path, bool& field, std::string documentation, Provenance provenance);
   template <class Enum>
   void choice(std::string path, Enum& field, std::vector<std::pair<std::string, Enum>> names,

@@ -66,13 +66,12 @@ std::vector<PartLoad> part_loads(const Machine& machine, const SteadyWindow& win
   const MachineConfig& config = machine.config();
   std::vector<PartLoad> loads;
 
-  Cycles bus;
-  for (std::size_t port = 0; port < last.ports.size(); ++port)
-    bus += last.ports[port].bus - first.ports[port].bus;
-  const ClockDomain& memory_clock = machine.memory().clock();
-  loads.push_back({"memory", "memory.bytes_per_cycle",
-                   ratio(bus, cycles_between(memory_clock, first.time, last.time)),
-                   memory_clock.seconds(bus) / frames});
+  if (const Memory* memory = machine.memory()) {
+    const Cycles work = last.memory - first.memory;
+    loads.push_back({"memory", config.memory.model == MemoryModel::kDram ? "memory.device" : "memory.bytes_per_cycle",
+                     ratio(work, memory->cycle_at_or_after(last.time) - memory->cycle_at_or_after(first.time)),
+                     memory->seconds(work) / frames});
+  }
 
   const ClockDomain& camera_clock = machine.camera_clock();
   loads.push_back({"camera", "clocks.camera_hz",

@@ -89,7 +89,7 @@ TEST(Configuration, AssignmentsApplyInOrder) {
   EXPECT_EQ(machine.matching.p1, 20);
   EXPECT_EQ(machine.matching.p2, 90);
   EXPECT_EQ(machine.clocks.core_hz, 150'000'000);
-  EXPECT_EQ(machine.memory.arbitration, Arbitration::kFixedPriority);
+  EXPECT_EQ(machine.memory.arbitration, MemoryArbitration::kFixedPriority);
   EXPECT_EQ(machine.streams.resolve("unique", 5000), 99U);
   EXPECT_EQ(machine.dma.map.burst_bytes, 256U);
   EXPECT_FALSE(machine.gap_interpolation.enabled);

@@ -109,8 +109,8 @@ void fill(BusMaster& master, Values bytes) {
 }
 
 // 100 MHz as the engines; 8 B a cycle, 3 cycles of latency.
-MemoryTiming plain_memory() {
-  MemoryTiming t;
+BusMemory plain_memory() {
+  BusMemory t;
   t.size = Bytes(1 << 16);
   t.bytes_per_cycle = Bytes(8);
   t.latency = Cycles(3);
@@ -319,7 +319,7 @@ struct WriterBench {
 };
 
 TEST(DmaWriter, ABurstLeavesTheFifoWhenTheMemoryTakesIt) {
-  MemoryTiming t = plain_memory();
+  BusMemory t = plain_memory();
   t.queue_depth = 1;
   WriterBench<Memory> b(engine(32, 8, 8), {}, 4, t, memory_clock());
   Cycles done;

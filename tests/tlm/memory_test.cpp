@@ -9,6 +9,7 @@
 #include <random>
 
 #include "tests/timing/in_child.hpp"
+#include "tests/tlm/bus_memory.hpp"
 #include "tests/tlm/protocol_initiator.hpp"
 #include "tests/tlm/thread.hpp"
 #include "tlm/traffic_only.hpp"
@@ -19,8 +20,8 @@ namespace {
 using Nanoseconds = std::vector<double>;
 
 // A cycle is a nanosecond; 8 B a cycle; 10 cycles of latency.
-MemoryTiming timing() {
-  MemoryTiming t;
+BusMemory timing() {
+  BusMemory t;
   t.size = Bytes(1 << 16);
   t.bytes_per_cycle = Bytes(8);
   t.latency = Cycles(10);
@@ -28,8 +29,8 @@ MemoryTiming timing() {
 }
 
 struct Bench {
-  explicit Bench(const MemoryTiming& t = timing(), int ports = 1, std::int64_t hz = 1'000'000'000)
-      : clock("memory", Hertz(hz)), memory("memory", t, clock) {
+  explicit Bench(const BusMemory& t = timing(), int ports = 1, std::int64_t hz = 1'000'000'000)
+      : clock("memory", Hertz(hz)), memory("memory", t, std::make_unique<BusScheduler>(t, clock)) {
     for (int i = 0; i < ports; ++i) {
       initiators.push_back(std::make_unique<ProtocolInitiator>(sc_core::sc_gen_unique_name("initiator")));
       initiators.back()->socket.bind(memory.socket);
@@ -79,7 +80,7 @@ TEST(Memory, ABurstTakesItsBytesAtTheBusRateRoundedUp) {
 }
 
 TEST(Memory, WithoutDataTheTimeIsTheSame) {
-  MemoryTiming t = timing();
+  BusMemory t = timing();
   t.holds_data = false;
   Bench b(t);
   b.thread([&] {
@@ -95,7 +96,7 @@ TEST(Memory, WithoutDataTheTimeIsTheSame) {
 }
 
 TEST(Memory, EfficiencyStretchesTheBus) {
-  MemoryTiming t = timing();
+  BusMemory t = timing();
   t.efficiency = 80;  // 6.4 B a cycle
   Bench b(t);
   b.thread([&] {
@@ -142,8 +143,8 @@ TEST(Memory, RoundRobinServesThePortsInTurn) {
 }
 
 TEST(Memory, FixedPriorityServesTheFirstPortFirst) {
-  MemoryTiming t = timing();
-  t.arbitration = MemoryTiming::Arbitration::kFixedPriority;
+  BusMemory t = timing();
+  t.arbitration = MemoryArbitration::kFixedPriority;
   Bench b(t, 3);
   for (std::size_t port = 0; port < 3; ++port) {
     b.thread([&b, port] {
@@ -162,7 +163,7 @@ TEST(Memory, WhoIsServedFirstDoesNotDependOnDeltaCycles) {
     std::string expected;
     for (std::uint32_t seed = 0; seed < 24; ++seed) {
       const std::string text = in_child([&] {
-        MemoryTiming t = timing();
+        BusMemory t = timing();
         t.queue_depth = queue_depth;
         Bench b(t, 3);
         std::mt19937 random(seed);
@@ -225,7 +226,7 @@ TEST(Memory, CountsWhatHasHappenedAndNoMore) {
 }
 
 TEST(Memory, AFullQueueHoldsBackTheEndOfTheRequest) {
-  MemoryTiming t = timing();
+  BusMemory t = timing();
   t.queue_depth = 2;
   Bench b(t);
   b.thread([&] {
@@ -239,7 +240,7 @@ TEST(Memory, AFullQueueHoldsBackTheEndOfTheRequest) {
 }
 
 TEST(Memory, LatencyCountsFromBeginReqEvenWhenTheRequestIsNotTakenYet) {
-  MemoryTiming t = timing();
+  BusMemory t = timing();
   t.queue_depth = 1;
   Bench b(t);
   b.thread([&] {
@@ -253,7 +254,7 @@ TEST(Memory, LatencyCountsFromBeginReqEvenWhenTheRequestIsNotTakenYet) {
 }
 
 TEST(Memory, AnAnnotatedDelayIsTheTimeOfTheRequest) {
-  MemoryTiming t = timing();
+  BusMemory t = timing();
   t.queue_depth = 1;
   Bench b(t);
   b.thread([&] {
@@ -353,7 +354,7 @@ TEST(Memory, WhatIsWrittenIsRead) {
   EXPECT_EQ(s.read_bytes, 16u);
   EXPECT_EQ(s.bytes(), 216u);
   EXPECT_EQ(s.requests, 2u);
-  EXPECT_EQ(s.bus.count(), 25 + 2);
+  EXPECT_EQ(b.memory.bus_taken(0).count(), 25 + 2);
 }
 
 TEST(Memory, DebugAccessTakesNoTime) {
@@ -425,7 +426,7 @@ TEST(Memory, RefusesWhatItCannotDo) {
 }
 
 TEST(Memory, ReportsASecondRequestBeforeTheEndOfTheFirst) {
-  MemoryTiming t = timing();
+  BusMemory t = timing();
   t.queue_depth = 1;
   Bench b(t);
   PayloadPool pool(64);
@@ -450,9 +451,9 @@ TEST(Memory, KeepsToTheBaseProtocol) {
   for (std::uint32_t seed = 1; seed <= 30; ++seed) {
     const std::string text = in_child([seed] {
       std::mt19937 random(seed);
-      MemoryTiming t = timing();
+      BusMemory t = timing();
       t.queue_depth = 1 + static_cast<std::uint32_t>(random() % 4);
-      if (random() % 2 == 0) t.arbitration = MemoryTiming::Arbitration::kFixedPriority;
+      if (random() % 2 == 0) t.arbitration = MemoryArbitration::kFixedPriority;
       Bench b(t, 4, 171'999'997);
       for (std::size_t port = 0; port < 4; ++port) {
         b[port].answer = static_cast<ProtocolInitiator::Answer>(random() % 3);

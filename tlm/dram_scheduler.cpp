@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tlm/dram_scheduler.hpp"
+
+#include <algorithm>
+
+namespace parallax {
+namespace {
+
+// A burst's tag in the controller: the port, and the number of the read at it.
+constexpr std::uint64_t kPorts = 256;
+
+}  // namespace
+
+DramScheduler::DramScheduler(const DramMemory& memory)
+    : memory_(memory),
+      period_(memory.timing.clock_period_ps),
+      burst_bytes_(static_cast<std::uint64_t>(memory.timing.burst_bytes())),
+      address_(memory.timing, memory.mapping),
+      controller_(memory.timing, memory.policy) {}
+
+void DramScheduler::bind(MemoryQueues& queues) {
+  queues_ = &queues;
+  if (queues.ports() > kPorts) SC_REPORT_ERROR("/parallax/memory/ports", "a DRAM has at most 256 ports");
+  ports_.resize(queues.ports());
+  if (queues.ports() > 0) current_ = queues.ports() - 1;  // the first turn is the first port's
+}
+
+double DramScheduler::usable_bandwidth() const {
+  return memory_.timing.peak_bandwidth() * static_cast<double>(memory_.policy.efficiency) / 100.0;
+}
+
+void DramScheduler::serve_until(Picoseconds date, bool inclusive, MemoryService& service) {
+  const Clock limit = clock_at_or_after(date) + (inclusive && date.count() % period_ == 0 ? 1 : 0);
+  if (limit <= decided_) return;
+  enter_until(limit, service);
+  run_controller(limit, service);
+  decided_ = limit;
+}
+
+// Lets bursts in, in all clocks before `limit`.
+void DramScheduler::enter_until(Clock limit, MemoryService& service) {
+  while (!queues_->empty()) {
+    const Clock entry = next_entry();
+    if (entry >= limit) return;  // and what comes may come earlier
+    next_ = entry;
+    run_controller(next_, service);
+    if (choose(next_)) {
+      run_controller(next_ + 1, service);
+      enter(current_, service);
+    } else {
+      next_ = std::min(next_change(next_), limit);  // what comes after it is not known
+    }
+  }
+}
+
+// Keeps what is known of the first request of a port's queue up to date.
+void DramScheduler::look_at_head(std::size_t id) {
+  Port& port = ports_[id];
+  const Picoseconds arrival = queues_->arrivals()[id];
+  if (port.bursts_left != 0 || port.arrival_date == arrival) return;
+  port.arrival_date = arrival;
+  if (arrival != MemoryQueues::kNever) port.arrival = clock_at_or_after(arrival);
+}
+
+// Clock in which some burst could enter at the earliest, if there is room; needs one that waits.
+DramScheduler::Clock DramScheduler::next_entry() {
+  Clock first = DramController::kNever;
+  for (std::size_t id = 0; id < ports_.size(); ++id) {
+    if (queues_->empty(id)) continue;
+    look_at_head(id);
+    first = std::min(first, ports_[id].arrival);
+  }
+  return std::max(first, next_);
+}
+
+bool DramScheduler::can_enter(std::size_t id, Clock clock) {
+  if (queues_->empty(id)) return false;
+  look_at_head(id);
+  return ports_[id].arrival <= clock && controller_.room(queues_->head(id).payload->is_write());
+}
+
+// Makes the port current whose burst enters in `clock`; false if none can.
+bool DramScheduler::choose(Clock clock) {
+  if (ports_[current_].bursts_left != 0 && can_enter(current_, clock)) return true;
+  const bool in_turn = memory_.arbitration == MemoryArbitration::kRoundRobin;
+  std::size_t id = in_turn ? current_ + 1 : 0;
+  for (std::size_t i = 0; i < ports_.size(); ++i, ++id) {
+    if (id >= ports_.size()) id -= ports_.size();
+    if (!can_enter(id, clock)) continue;
+    current_ = id;
+    return true;
+  }
+  return false;
+}
+
+// Nobody can enter in `clock`: the first later one in which somebody might.
+DramScheduler::Clock DramScheduler::next_change(Clock clock) {
+  Clock next = controller_.next_command();
+  if (next != DramController::kNever) ++next;
+  for (std::size_t id = 0; id < ports_.size(); ++id) {
+    if (!queues_->empty(id) && ports_[id].arrival > clock) next = std::min(next, ports_[id].arrival);
+  }
+  return std::max(next, clock + 1);
+}
+
+// The next burst of the port's first request enters in clock next_.
+void DramScheduler::enter(std::size_t id, MemoryService& service) {
+  Port& port = ports_[id];
+  const ::tlm::tlm_generic_payload& payload = *queues_->head(id).payload;
+  const bool write = payload.is_write();
+  if (port.bursts_left == 0) {
+    const std::uint64_t begin = payload.get_address() % burst_bytes_;
+    port.bursts_left = (begin + std::max(1U, payload.get_data_length()) + burst_bytes_ - 1) / burst_bytes_;
+    port.next = payload.get_address() - begin;
+    if (!write) {
+      port.reads.push_back({{}, port.bursts_left, 0});
+      ++reads_;
+    }
+  }
+  if (controller_.idle() && next_ >= work_end_) {
+    work_ += work_end_ - work_begin_;
+    work_begin_ = next_;
+  }
+  const std::uint64_t number = write ? 0 : port.first_read + port.reads.size() - 1;
+  controller_.submit({address_.place(port.next), number * kPorts + id, write}, next_);
+  port.next += burst_bytes_;
+  ++next_;
+  if (--port.bursts_left > 0) return;
+  const MemoryRequest request = queues_->pop(id, date_of(next_));
+  if (!write) port.reads[port.reads.size() - 1].request = request;
+  service.served(id, request);
+  if (write) service.answered(id, request, date_of(next_ + memory_.latency));
+}
+
+void DramScheduler::run_controller(Clock limit, MemoryService& service) {
+  controller_.run_until(limit, done_);
+  for (const DramController::Done& done : done_) {
+    const std::size_t id = done.tag % kPorts;
+    Port& port = ports_[id];
+    beats_.push_back({done.data_end, id});
+    work_end_ = std::max(work_end_, done.data_end);
+    if (done.write) continue;
+    Read& read = port.reads[done.tag / kPorts - port.first_read];
+    read.end = std::max(read.end, done.data_end);
+    --read.bursts_left;
+    while (!port.reads.empty() && port.reads.front().bursts_left == 0) {
+      const Read first = port.reads.front();
+      port.reads.pop_front();
+      --reads_;
+      ++port.first_read;
+      if (!port.reads.empty()) port.reads.front().end = std::max(port.reads.front().end, first.end);
+      service.answered(id, first.request, date_of(first.end + memory_.latency));
+    }
+  }
+  done_.clear();
+}
+
+// In which some burst that waits could enter at the earliest; needs one.
+DramScheduler::Clock DramScheduler::entry_bound() {
+  Clock bound = DramController::kNever;
+  for (std::size_t id = 0; id < ports_.size(); ++id) {
+    if (queues_->empty(id)) continue;
+    look_at_head(id);
+    Clock clock = std::max({ports_[id].arrival, next_, decided_});
+    if (!controller_.room(queues_->head(id).payload->is_write())) {
+      clock = std::max(clock, controller_.next_command() + 1);
+    }
+    bound = std::min(bound, clock);
+  }
+  return bound;
+}
+
+Picoseconds DramScheduler::next_answer() {
+  const DramTiming& timing = memory_.timing;
+  Clock next = DramController::kNever;
+  if (reads_ > 0 && !controller_.idle()) {
+    next = std::max(controller_.next_command(), decided_) + timing.cl + timing.burst_clocks();
+  }
+  // A read's first command comes in the clock after its entry; a write is answered after its last burst's.
+  if (!queues_->empty()) next = std::min(next, entry_bound() + 1);
+  return next == DramController::kNever ? MemoryQueues::kNever : date_of(next + memory_.latency);
+}
+
+Picoseconds DramScheduler::next_place() { return date_of(entry_bound() + 1); }
+
+void DramScheduler::count_beats(Clock clock) {
+  for (; !beats_.empty() && beats_.front().end <= clock; beats_.pop_front()) {
+    ports_[beats_.front().port].bus += Cycles(memory_.timing.burst_clocks());
+  }
+}
+
+Cycles DramScheduler::bus_taken(std::size_t port, Picoseconds date) {
+  const Clock clock = clock_at_or_after(date);
+  count_beats(clock);
+  Cycles taken = ports_[port].bus;
+  if (!beats_.empty() && beats_.front().port == port) {
+    const Clock begin = beats_.front().end - memory_.timing.burst_clocks();
+    taken += Cycles(std::max<Clock>(0, clock - begin));
+  }
+  return taken;
+}
+
+Cycles DramScheduler::at_work(Picoseconds date) {
+  const Clock clock = clock_at_or_after(date);
+  const Clock end = controller_.idle() ? std::min(clock, work_end_) : clock;
+  return Cycles(work_ + std::max<Clock>(0, end - work_begin_));
+}
+
+}  // namespace parallax

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "tlm/dram_address.hpp"
+#include "tlm/dram_controller.hpp"
+#include "tlm/memory_scheduler.hpp"
+#include "tlm/ring.hpp"
+
+namespace parallax {
+
+/// A DRAM controller with its devices, behind an interconnect.
+struct DramMemory {
+  DramTiming timing;
+  DramPolicy policy;
+  DramMapping mapping = DramMapping::kRowBankColumn;
+  std::int64_t latency = 0;  ///< DRAM clocks that ports, interconnect and PHY add to an answer
+  MemoryArbitration arbitration = MemoryArbitration::kRoundRobin;
+};
+
+/// Requests are cut into the devices' bursts, of which one enters the controller in a clock. The arbiter
+/// gives a request the way into the controller until all its bursts are in, or until the controller's queue
+/// for its direction is full while another port has something for the other one. The request's place at the
+/// port is free in the clock after its last burst has entered.
+///
+/// A write is posted: it is answered `latency` clocks after the clock in which its last burst entered. A read
+/// is answered `latency` clocks after the last beat of its last burst, and not before the reads that its port
+/// asked for earlier.
+class DramScheduler final : public MemoryScheduler {
+ public:
+  explicit DramScheduler(const DramMemory& memory);
+
+  void bind(MemoryQueues& queues) override;
+  void serve_until(Picoseconds date, bool inclusive, MemoryService& service) override;
+  Picoseconds next_answer() override;
+  Picoseconds next_place() override;
+
+  Cycles bus_taken(std::size_t port, Picoseconds date) override;
+  Cycles at_work(Picoseconds date) override;
+  Cycles cycle_at_or_after(Picoseconds date) const override { return Cycles(clock_at_or_after(date)); }
+  double seconds(Cycles cycles) const override {
+    return static_cast<double>(cycles.count()) * static_cast<double>(memory_.timing.clock_period_ps) * 1e-12;
+  }
+  double usable_bandwidth() const override;
+
+  const DramStatistics* commands() const override { return &controller_.statistics(); }
+
+ private:
+  using Clock = DramController::Clock;
+  struct Read {  // in the controller
+    MemoryRequest request;
+    std::uint64_t bursts_left = 0;  // whose last beat is not known
+    Clock end = 0;                  // of the last beat so far
+  };
+  struct Port {
+    std::uint64_t bursts_left = 0;  // of the head of the queue when it is on its way in
+    std::uint64_t next = 0;         // address of its next burst
+    Clock arrival = 0;              // of the head
+    Picoseconds arrival_date = MemoryQueues::kNever;
+    std::uint64_t first_read = 0;  // number of the oldest in `reads`
+    Ring<Read> reads;              // in order
+    Cycles bus;                    // that has passed
+  };
+  struct Beats {  // on the data bus, not passed yet
+    Clock end;
+    std::size_t port;
+  };
+
+  Clock clock_at_or_after(Picoseconds date) const { return (date.count() + period_ - 1) / period_; }
+  Picoseconds date_of(Clock clock) const { return Picoseconds(clock * period_); }
+  void enter_until(Clock limit, MemoryService& service);
+  bool choose(Clock clock);
+  bool can_enter(std::size_t port, Clock clock);
+  void enter(std::size_t port, MemoryService& service);
+  void look_at_head(std::size_t port);
+  Clock next_change(Clock clock);
+  void run_controller(Clock limit, MemoryService& service);
+  void count_beats(Clock clock);
+  Clock next_entry();
+  Clock entry_bound();
+
+  const DramMemory memory_;
+  const std::int64_t period_;  // ps
+  const std::uint64_t burst_bytes_;
+  const DramAddress address_;
+  DramController controller_;
+  MemoryQueues* queues_ = nullptr;
+  std::vector<Port> ports_;
+  std::size_t current_ = 0;  // whose turn it is, or was
+  Clock next_ = 0;           // in which the next burst may enter
+  Clock decided_ = 0;        // all clocks before are decided
+  std::vector<DramController::Done> done_;
+  Ring<Beats> beats_;
+  std::size_t reads_ = 0;  // in the controller or on their way in
+  Clock work_ = 0;         // clocks at work, of periods that are over
+  Clock work_begin_ = 0;   // of the last period
+  Clock work_end_ = 0;     // likewise, as far as it is known
+};
+
+}  // namespace parallax

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <systemc>
+#include <tlm>
+#include <utility>
+#include <vector>
+
+#include "tlm/ring.hpp"
+#include "tlm/units.hpp"
+
+namespace parallax {
+
+/// Which port a memory serves when several wait.
+enum class MemoryArbitration {
+  kRoundRobin,     ///< in turn
+  kFixedPriority,  ///< always the first in the order of binding
+};
+
+/// A request at a memory's port.
+struct MemoryRequest {
+  ::tlm::tlm_generic_payload* payload = nullptr;
+  Picoseconds arrival;                    ///< date of BEGIN_REQ, or of the blocking call
+  sc_core::sc_event* blocking = nullptr;  ///< of a b_transport caller
+};
+
+/// The requests that wait at the ports of a memory: a queue a port, and behind a full one a request that is
+/// not taken yet.
+class MemoryQueues {
+ public:
+  static constexpr Picoseconds kNever{std::numeric_limits<std::int64_t>::max()};
+  struct Taken {  ///< a request that was not taken at once and now is
+    std::size_t port;
+    MemoryRequest request;
+    Picoseconds date;  ///< when its place was free
+  };
+
+  explicit MemoryQueues(std::uint32_t depth) : depth_(depth) {}
+
+  void set_ports(std::size_t number) {
+    ports_.resize(number);
+    arrivals_.resize(number, kNever);
+  }
+  std::size_t ports() const { return ports_.size(); }
+  bool room(std::size_t port) const { return ports_[port].queue.size() < depth_; }
+  bool empty() const { return waiting_ == 0; }
+  bool empty(std::size_t port) const { return ports_[port].queue.empty(); }
+  /// Needs one that waits.
+  const MemoryRequest& head(std::size_t port) const { return ports_[port].queue.front(); }
+  /// Dates at which the first request of each queue has arrived or will, or kNever.
+  const std::vector<Picoseconds>& arrivals() const { return arrivals_; }
+
+  /// Blocking callers are not held back by a full queue.
+  void push(std::size_t port, const MemoryRequest& request) {
+    Ring<MemoryRequest>& queue = ports_[port].queue;
+    if (queue.empty()) arrivals_[port] = request.arrival;
+    queue.push_back(request);
+    ++waiting_;
+  }
+  /// The queue has no room, and no other request is refused.
+  void refuse(std::size_t port, const MemoryRequest& request) {
+    ports_[port].refused = request;
+    ++refused_;
+  }
+  bool has_refused(std::size_t port) const { return ports_[port].refused.payload != nullptr; }
+  bool any_refused() const { return refused_ != 0; }
+
+  /// The first request leaves its queue at `date`; one that was refused finds its place.
+  MemoryRequest pop(std::size_t id, Picoseconds date) {
+    Port& port = ports_[id];
+    const MemoryRequest request = port.queue.front();
+    port.queue.pop_front();
+    --waiting_;
+    if (port.refused.payload != nullptr) {
+      const MemoryRequest taken = std::exchange(port.refused, {});
+      --refused_;
+      port.queue.push_back(taken);
+      ++waiting_;
+      taken_.push_back({id, taken, date});
+    }
+    arrivals_[id] = port.queue.empty() ? kNever : port.queue.front().arrival;
+    return request;
+  }
+  /// Refused requests that have found their place since the last call.
+  std::vector<Taken> newly_taken() { return std::exchange(taken_, {}); }
+  bool any_newly_taken() const { return !taken_.empty(); }
+
+ private:
+  struct Port {
+    Ring<MemoryRequest> queue;
+    MemoryRequest refused;  // BEGIN_REQ not answered with END_REQ yet
+  };
+  std::vector<Port> ports_;
+  std::vector<Picoseconds> arrivals_;
+  std::size_t waiting_ = 0;  // in all queues
+  std::size_t refused_ = 0;  // on all ports
+  std::vector<Taken> taken_;
+  std::uint32_t depth_;
+};
+
+}  // namespace parallax
