@@ -224,8 +224,8 @@ Activity Machine::activity() {
   activity.time = sc_core::sc_time_stamp();
   const std::vector<BusMaster*> engines = masters();
   for (std::size_t port = 0; port < engines.size(); ++port) {
-    activity.ports.push_back({engines[port]->statistics().bytes, memory_ ? memory_->bus_taken(port) : Cycles(0),
-                              engines[port]->occupied()});
+    activity.ports.push_back({engines[port]->statistics().bytes,
+                              memory_ ? memory_->bus_taken(port) : Cycles(0), engines[port]->occupied()});
   }
   if (memory_) {
     activity.memory = memory_->at_work();

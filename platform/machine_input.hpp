@@ -19,9 +19,9 @@ struct MachineInput {
   const EncodedMap* map = nullptr;
   std::int64_t frames = 1;
   bool timing_only = false;  ///< no frame has images, so the memory need not hold any
-  /// Called, if there is one, with the socket of each memory port, to bind it: another memory in the place of the
-  /// machine's own. A TLM-2.0 target that keeps to the base protocol and answers transport_dbg; it must hold data
-  /// unless `timing_only`.
+  /// Called, if there is one, with the socket of each memory port, to bind it: another memory in the place of
+  /// the machine's own. A TLM-2.0 target that keeps to the base protocol and answers transport_dbg; it must
+  /// hold data unless `timing_only`.
   std::function<void(::tlm::tlm_initiator_socket<>& socket, const std::string& port)> bind_memory;
   /// Called, if there is one, once a frame, in order, when it is exposed. The cameras go on after the last
   /// one, without images, until the host has all frames, so that every frame meets the traffic of its

@@ -46,15 +46,16 @@ class Layout {
       const Region& first = regions_[i - 1];
       const Region& second = regions_[i];
       if (first.end() <= second.begin) continue;
-      throw UserError(fmt::format(
-          "memory_map: {} at {:#x} with {} B reaches to {:#x}, beyond {} at {:#x}; set memory_map.<name>.address "
-          "or .pitch",
-          first.name, first.begin, first.bytes, first.end(), second.name, second.begin));
+      throw UserError(
+          fmt::format("memory_map: {} at {:#x} with {} B reaches to {:#x}, beyond {} at {:#x}; set "
+                      "memory_map.<name>.address "
+                      "or .pitch",
+                      first.name, first.begin, first.bytes, first.end(), second.name, second.begin));
     }
     for (const Region& region : regions_) {
       if (region.end() <= memory) continue;
-      throw UserError(fmt::format("memory.size_bytes = {} is too small: {} at {:#x} with {} B ends at {}", memory,
-                                  region.name, region.begin, region.bytes, region.end()));
+      throw UserError(fmt::format("memory.size_bytes = {} is too small: {} at {:#x} with {} B ends at {}",
+                                  memory, region.name, region.begin, region.bytes, region.end()));
     }
   }
 

@@ -47,6 +47,19 @@ std::vector<std::string> longer_queues(const DmaConfig& dma) {
   return assignments;
 }
 
+Relaxation memory_clock(const MachineConfig& config) {
+  if (config.memory.model == MemoryModel::kBus) return clock("memory", config.clocks.memory_hz);
+  return {"memory_clock",
+          "twice as fast",
+          {fmt::format("dram.clock_period_ps={}",
+                       std::max<std::int64_t>(config.memory.dram.clock_period_ps / 2, 100))}};
+}
+
+std::int64_t larger_memory(const MemoryConfig& config) {
+  const std::int64_t larger = std::min(4 * config.size_bytes, std::int64_t{1} << 40);
+  return config.model == MemoryModel::kBus ? larger : std::min(larger, config.dram.bytes());
+}
+
 }  // namespace
 
 std::vector<Relaxation> relaxations(const MachineConfig& config, const nlohmann::ordered_json& metrics) {
@@ -54,7 +67,8 @@ std::vector<Relaxation> relaxations(const MachineConfig& config, const nlohmann:
       {"fifos", "between stages, 16 times and 1024 tokens deeper", deeper_fifos(metrics)},
       {"memory",
        "no latency, all of 1024 B a cycle",
-       {"memory.bytes_per_cycle=1024", "memory.latency_cycles=0", "memory.efficiency=100"}},
+       {"memory.model=bus", "memory.bytes_per_cycle=1024", "memory.latency_cycles=0",
+        "memory.efficiency=100"}},
       {"dma", "8 times as many bursts under way", longer_queues(config.dma)},
       {"camera",
        "any rate, cable and pixel clock",
@@ -64,9 +78,9 @@ std::vector<Relaxation> relaxations(const MachineConfig& config, const nlohmann:
        "twice as many for frames and results",
        {fmt::format("camera.frame_buffers={}", std::min(2 * config.camera.frame_buffers, 64U)),
         fmt::format("link.output_buffers={}", std::min(2 * config.link.output_buffers, 64U)),
-        fmt::format("memory.size_bytes={}", 4 * config.memory.size_bytes)}},
+        fmt::format("memory.size_bytes={}", larger_memory(config.memory))}},
       clock("core", config.clocks.core_hz),
-      clock("memory", config.clocks.memory_hz),
+      memory_clock(config),
       clock("camera", config.clocks.camera_hz)};
   if (config.timing.matching.interval > 1) {
     all.push_back({"matching_interval", "one iteration a cycle", {"matching.interval=1"}});

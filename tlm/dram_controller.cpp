@@ -26,6 +26,8 @@ DramController::DramController(const DramTiming& timing, const DramPolicy& polic
 
 void DramController::submit(const Burst& burst, Clock clock) {
   (burst.write ? writes_ : reads_).push_back({burst, clock});
+  std::int64_t& misses = misses_[burst.write ? 1 : 0];
+  if (misses >= 0 && banks_[burst.place.bank].open_row != std::int64_t{burst.place.row}) ++misses;
   changed_ = clock;
   planned_ = planned_ && direction() == plan_writing_ && (burst.write != plan_writing_ || plan_newest());
 }
@@ -37,7 +39,9 @@ bool DramController::plan_newest() {
   const Entry& entry = queue()[index];
   const std::uint32_t number = entry.burst.place.bank;
   Plan newest;
-  if (banks_[number].open_row == std::int64_t{entry.burst.place.row}) {
+  const bool hit = banks_[number].open_row == std::int64_t{entry.burst.place.row};
+  if (oldest_planned_) return hit;  // which can go no sooner
+  if (hit) {
     if ((wanted_[number] & kPrepare) != 0) return false;  // the bank must not be closed any more
     wanted_[number] |= kHit;
     newest = plan_column(entry, index);
@@ -75,10 +79,22 @@ void DramController::plan() {
   planned_ = true;
 }
 
+// The plan when all rows are open and may be read and written, which is simply the oldest burst's; false when it
+// takes more to know.
+bool DramController::plan_oldest(Plan& plan) const {
+  const std::vector<Entry>& entries = plan_writing_ ? writes_ : reads_;
+  if (groups_.size() > 1 || misses_[plan_writing_ ? 1 : 0] != 0 || entries.empty()) return false;
+  plan = plan_column(entries.front(), 0);
+  return banks_[entries.front().burst.place.bank].column < plan.clock;
+}
+
 // The earliest command for the queue that is being served; of several in one clock the oldest burst's.
 DramController::Plan DramController::plan_queue() {
   Plan column;
   Plan row;
+  oldest_planned_ = plan_oldest(column);
+  if (oldest_planned_) return column;
+  column = {};
   const std::vector<Entry>& entries = queue();
   std::fill(wanted_.begin(), wanted_.end(), std::uint8_t{0});
   std::size_t hits = 0;
@@ -91,6 +107,7 @@ DramController::Plan DramController::plan_queue() {
     const Plan plan = plan_column(entries[i], i);
     if (plan.clock < column.clock) column = plan;
   }
+  misses() = static_cast<std::int64_t>(entries.size() - hits);
   for (std::size_t i = 0; i < entries.size() && hits < entries.size(); ++i) {
     std::uint8_t& wanted = wanted_[entries[i].burst.place.bank];
     if (wanted != 0) continue;  // its row is wanted, or an older burst prepares it
@@ -109,7 +126,7 @@ DramController::Clock DramController::earliest(const Entry& entry) const {
 
 // The read or write of a burst whose row is open.
 DramController::Plan DramController::plan_column(const Entry& entry, std::size_t index) const {
-  const Clock ready = std::max(earliest(entry), column_ready(entry));
+  const Clock ready = std::max(earliest(entry), column_ready(entry.burst));
   return {ready, entry.burst.write ? DramCommand::kWrite : DramCommand::kRead, index};
 }
 
@@ -133,11 +150,11 @@ DramController::Plan DramController::plan_refresh(Clock at) const {
   return {closed, DramCommand::kRefresh, 0};
 }
 
-DramController::Clock DramController::column_ready(const Entry& entry) const {
-  const std::uint32_t bank = entry.burst.place.bank;
+DramController::Clock DramController::column_ready(const Burst& burst) const {
+  const std::uint32_t bank = burst.place.bank;
   const Group& group = groups_[group_of(bank)];
   const Clock ready = std::max(banks_[bank].column, column_free_);
-  if (entry.burst.write) {
+  if (burst.write) {
     return std::max({ready, any_.last_write + timing_.ccd, group.last_write + timing_.ccd_group,
                      any_.last_read + timing_.rtw});
   }
@@ -176,9 +193,12 @@ void DramController::issue(std::vector<Done>& done) {
       refresh_free_ = plan.clock + timing_.rp_all;
       break;
     case DramCommand::kRead:
-    case DramCommand::kWrite:
-      column(plan.clock, plan.entry, done);
+    case DramCommand::kWrite: {
+      const Burst burst = queue()[plan.entry].burst;
+      queue().erase(queue().begin() + static_cast<std::ptrdiff_t>(plan.entry));
+      column(plan.clock, burst, done);
       break;
+    }
     case DramCommand::kRefresh:
       refresh(plan.clock);
       break;
@@ -189,6 +209,7 @@ void DramController::issue(std::vector<Done>& done) {
 
 void DramController::activate(Clock at, const DramPlace& place) {
   ++statistics_.activates;
+  rows_change();
   Bank& bank = banks_[place.bank];
   bank.open_row = place.row;
   bank.column = at + timing_.rcd;
@@ -201,14 +222,12 @@ void DramController::activate(Clock at, const DramPlace& place) {
 }
 
 void DramController::precharge(Clock at, Bank& bank) {
+  rows_change();
   bank.open_row = -1;
   bank.activate = std::max(bank.activate, at + timing_.rp);
 }
 
-void DramController::column(Clock at, std::size_t entry, std::vector<Done>& done) {
-  std::vector<Entry>& entries = queue();
-  const Burst burst = entries[entry].burst;
-  entries.erase(entries.begin() + static_cast<std::ptrdiff_t>(entry));
+void DramController::column(Clock at, const Burst& burst, std::vector<Done>& done) {
   Bank& bank = banks_[burst.place.bank];
   Group& group = groups_[group_of(burst.place.bank)];
   const Clock data = at + (burst.write ? timing_.cwl : timing_.cl) + timing_.burst_clocks();
@@ -224,12 +243,72 @@ void DramController::column(Clock at, std::size_t entry, std::vector<Done>& done
   if (statistics_.reads + statistics_.writes > 1 && burst.write != last_was_write_)
     ++statistics_.turn_arounds;
   last_was_write_ = burst.write;
-  if (policy_.efficiency < 100) {
-    lost_ += timing_.burst_clocks() * 100 * 100 / policy_.efficiency;
-    column_free_ = std::max(column_free_, at) + lost_ / 100;
-    lost_ %= 100;
-  }
+  lose_time(at, column_free_, lost_);
   done.push_back({burst.tag, burst.write, data});
+}
+
+// What the efficiency takes from the time after a column command.
+void DramController::lose_time(Clock at, Clock& column_free, std::int64_t& lost) const {
+  if (policy_.efficiency == 100) return;
+  lost += timing_.burst_clocks() * 100 * 100 / policy_.efficiency;
+  column_free = std::max(column_free, at) + lost / 100;
+  lost %= 100;
+}
+
+bool DramController::serve_alone(const Burst& burst, std::uint64_t number, Clock clock, Clock limit,
+                                 std::vector<Done>& done) {
+  limit = std::min(limit, refresh_due_);
+  if (!idle() || command_free_ >= limit) return false;
+  // The dates, by the same rules as those of the queue, for one bank and one row.
+  const Bank& bank = banks_[burst.place.bank];
+  Clock next = std::max(command_free_, clock + 1);
+  Clock close = -1;
+  Clock open = -1;
+  Clock column_at = column_ready(burst);
+  if (bank.open_row != std::int64_t{burst.place.row}) {
+    Clock ready = activate_ready(burst.place.bank);
+    if (bank.open_row >= 0) {
+      close = std::max(next, bank.precharge);
+      next = close + 1;
+      ready = std::max(ready, close + timing_.rp);
+    }
+    open = std::max(next, ready);
+    next = open + 1;
+    column_at = std::max(column_at, open + timing_.rcd);
+  }
+  const Clock pace = std::max(timing_.ccd, timing_.ccd_group);
+  Clock column_free = column_free_;
+  std::int64_t lost = lost_;
+  columns_.clear();
+  for (std::uint64_t i = 0; i < number; ++i) {
+    const Clock at = std::max({next, column_at, column_free, clock + static_cast<Clock>(i) + 1});
+    if (at >= limit) return false;
+    columns_.push_back(at);
+    lose_time(at, column_free, lost);
+    next = at + 1;
+    column_at = at + pace;
+  }
+  const auto tell = [&](Clock at, DramCommand command) {
+    if (listener_ != nullptr) listener_->command(at, command, burst.place.bank, burst.place.row);
+  };
+  if (close >= 0) {
+    tell(close, DramCommand::kPrecharge);
+    ++statistics_.precharges;
+    precharge(close, banks_[burst.place.bank]);
+  }
+  if (open >= 0) {
+    tell(open, DramCommand::kActivate);
+    activate(open, burst.place);
+  }
+  for (const Clock at : columns_) {
+    tell(at, burst.write ? DramCommand::kWrite : DramCommand::kRead);
+    column(at, burst, done);
+  }
+  writing_ = burst.write;
+  changed_ = columns_.back();
+  command_free_ = changed_ + 1;
+  planned_ = false;
+  return true;
 }
 
 void DramController::refresh(Clock at) {

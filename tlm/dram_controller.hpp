@@ -77,6 +77,12 @@ class DramController {
   /// Takes a burst in clock `clock`; needs room, and run_until(clock + 1) before, so that what happens in
   /// that clock is not caused by it.
   void submit(const Burst& burst, Clock clock);
+  /// Takes `number` bursts of one row that enter one a clock from `clock` on, and issues all that they cause,
+  /// provided that the last command of it comes before `limit`, no refresh falls between, and the controller
+  /// is idle; else does nothing and returns false. It is what submit() and run_until() do, sooner done. Needs
+  /// run_until(clock + 1) before, and that nothing else enters in a clock before that of the last command.
+  bool serve_alone(const Burst& burst, std::uint64_t number, Clock clock, Clock limit,
+                   std::vector<Done>& done);
   /// Issues all commands before clock `limit`; appends the bursts whose command that was, in order.
   void run_until(Clock limit, std::vector<Done>& done);
   /// Clock of the next command if nothing else arrives; kNever when it waits for nothing but refreshes.
@@ -113,6 +119,9 @@ class DramController {
   std::vector<Entry>& queue() { return plan_writing_ ? writes_ : reads_; }
   bool direction() const;
   Plan plan_queue();
+  bool plan_oldest(Plan& plan) const;
+  std::int64_t& misses() { return misses_[plan_writing_ ? 1 : 0]; }
+  void rows_change() { misses_.fill(-1); }
   bool plan_newest();
   Plan plan_column(const Entry& entry, std::size_t index) const;
   Plan plan_row(const Entry& entry, std::size_t index) const;
@@ -122,9 +131,10 @@ class DramController {
   void issue(std::vector<Done>& done);
   void activate(Clock at, const DramPlace& place);
   void precharge(Clock at, Bank& bank);
-  void column(Clock at, std::size_t entry, std::vector<Done>& done);
+  void column(Clock at, const Burst& burst, std::vector<Done>& done);
+  void lose_time(Clock at, Clock& column_free, std::int64_t& lost) const;
   void refresh(Clock at);
-  Clock column_ready(const Entry& entry) const;
+  Clock column_ready(const Burst& burst) const;
   Clock activate_ready(std::uint32_t bank) const;
   std::uint32_t group_of(std::uint32_t bank) const {
     return bank % static_cast<std::uint32_t>(groups_.size());
@@ -151,6 +161,10 @@ class DramController {
   Clock changed_ = -1;         // last clock in which a queue changed, or a command was issued
   bool planned_ = false;
   std::vector<std::uint8_t> wanted_;  // per bank: how plan_queue() has seen it
+  // Bursts in the queues of reads and of writes whose row is not open; -1: to be counted.
+  std::array<std::int64_t, 2> misses_{};
+  bool oldest_planned_ = false;  // by plan_oldest()
+  std::vector<Clock> columns_;   // of serve_alone()
   DramStatistics statistics_;
   DramListener* listener_ = nullptr;
 };

@@ -40,13 +40,20 @@ void DramScheduler::serve_until(Picoseconds date, bool inclusive, MemoryService&
 // Lets bursts in, in all clocks before `limit`.
 void DramScheduler::enter_until(Clock limit, MemoryService& service) {
   while (!queues_->empty()) {
+    // A request under way goes on: what had room then has room now.
+    if (ports_[current_].bursts_left != 0 && next_ < limit &&
+        controller_.room(queues_->head(current_).payload->is_write())) {
+      run_controller(next_ + 1, service);
+      enter(current_, service);
+      continue;
+    }
     const Clock entry = next_entry();
     if (entry >= limit) return;  // and what comes may come earlier
     next_ = entry;
     run_controller(next_, service);
     if (choose(next_)) {
       run_controller(next_ + 1, service);
-      enter(current_, service);
+      if (!serve_alone(current_, limit, service)) enter(current_, service);
     } else {
       next_ = std::min(next_change(next_), limit);  // what comes after it is not known
     }
@@ -103,24 +110,64 @@ DramScheduler::Clock DramScheduler::next_change(Clock clock) {
   return std::max(next, clock + 1);
 }
 
+std::uint64_t DramScheduler::bursts_of(const ::tlm::tlm_generic_payload& payload) const {
+  const std::uint64_t begin = payload.get_address() % burst_bytes_;
+  return (begin + std::max(1U, payload.get_data_length()) + burst_bytes_ - 1) / burst_bytes_;
+}
+
+// The controller was idle until something enters in this clock.
+void DramScheduler::begins_work(Clock clock) {
+  if (clock < work_end_) return;  // its last beats are not over
+  work_ += work_end_ - work_begin_;
+  work_begin_ = clock;
+}
+
+// The port's first request from its entry in clock next_ to its last command, if nothing else comes in
+// between.
+bool DramScheduler::serve_alone(std::size_t id, Clock limit, MemoryService& service) {
+  if (!controller_.idle() || ports_[id].bursts_left != 0) return false;
+  const ::tlm::tlm_generic_payload& payload = *queues_->head(id).payload;
+  const std::uint64_t bursts = bursts_of(payload);
+  const std::uint64_t first = payload.get_address() / burst_bytes_ * burst_bytes_;
+  const DramPlace place = address_.place(first);
+  if (bursts > 1) {
+    if (memory_.mapping == DramMapping::kRowBankColumnGroup) return false;
+    const DramPlace last = address_.place(first + (bursts - 1) * burst_bytes_);
+    if (last.bank != place.bank || last.row != place.row) return false;
+  }
+  for (std::size_t other = 0; other < ports_.size(); ++other) {
+    if (other != id && !queues_->empty(other)) limit = std::min(limit, ports_[other].arrival + 1);
+  }
+  if (const Picoseconds second = queues_->second_arrival(id); second != MemoryQueues::kNever) {
+    limit = std::min(limit, std::max(clock_at_or_after(second), next_ + static_cast<Clock>(bursts)) + 1);
+  }
+  const bool write = payload.is_write();
+  if (!controller_.serve_alone({place, id, write}, bursts, next_, limit, done_)) return false;
+  begins_work(next_);
+  next_ += static_cast<Clock>(bursts);
+  for (const DramController::Done& done : done_) beats_.push_back({done.data_end, id});
+  work_end_ = done_.back().data_end;
+  done_.clear();
+  const MemoryRequest request = queues_->pop(id, date_of(next_));
+  service.served(id, request);
+  service.answered(id, request, date_of((write ? next_ : work_end_) + memory_.latency));
+  return true;
+}
+
 // The next burst of the port's first request enters in clock next_.
 void DramScheduler::enter(std::size_t id, MemoryService& service) {
   Port& port = ports_[id];
   const ::tlm::tlm_generic_payload& payload = *queues_->head(id).payload;
   const bool write = payload.is_write();
   if (port.bursts_left == 0) {
-    const std::uint64_t begin = payload.get_address() % burst_bytes_;
-    port.bursts_left = (begin + std::max(1U, payload.get_data_length()) + burst_bytes_ - 1) / burst_bytes_;
-    port.next = payload.get_address() - begin;
+    port.bursts_left = bursts_of(payload);
+    port.next = payload.get_address() / burst_bytes_ * burst_bytes_;
     if (!write) {
       port.reads.push_back({{}, port.bursts_left, 0});
       ++reads_;
     }
   }
-  if (controller_.idle() && next_ >= work_end_) {
-    work_ += work_end_ - work_begin_;
-    work_begin_ = next_;
-  }
+  if (controller_.idle()) begins_work(next_);
   const std::uint64_t number = write ? 0 : port.first_read + port.reads.size() - 1;
   controller_.submit({address_.place(port.next), number * kPorts + id, write}, next_);
   port.next += burst_bytes_;

@@ -74,6 +74,9 @@ class DramScheduler final : public MemoryScheduler {
   bool choose(Clock clock);
   bool can_enter(std::size_t port, Clock clock);
   void enter(std::size_t port, MemoryService& service);
+  std::uint64_t bursts_of(const ::tlm::tlm_generic_payload& payload) const;
+  bool serve_alone(std::size_t port, Clock limit, MemoryService& service);
+  void begins_work(Clock clock);
   void look_at_head(std::size_t port);
   Clock next_change(Clock clock);
   void run_controller(Clock limit, MemoryService& service);

@@ -44,7 +44,7 @@ struct MemoryPortStatistics {
 ///
 /// TLM-2.0 target, base protocol: b_transport, the four phases of nb_transport, transport_dbg; no DMI, no
 /// byte enables. A port is one binding of the socket, in the order of binding.
-class Memory final : public sc_core::sc_module, private MemoryService {
+class Memory : public sc_core::sc_module, private MemoryService {
  public:
   tlm_utils::multi_passthrough_target_socket<Memory> socket{"socket"};
 

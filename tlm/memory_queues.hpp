@@ -49,6 +49,13 @@ class MemoryQueues {
   bool empty(std::size_t port) const { return ports_[port].queue.empty(); }
   /// Needs one that waits.
   const MemoryRequest& head(std::size_t port) const { return ports_[port].queue.front(); }
+  /// When the second request of the queue has arrived or will, or kNever; one that is refused counts.
+  Picoseconds second_arrival(std::size_t port) const {
+    const Port& p = ports_[port];
+    return p.queue.size() > 1             ? p.queue[1].arrival
+           : p.refused.payload != nullptr ? p.refused.arrival
+                                          : kNever;
+  }
   /// Dates at which the first request of each queue has arrived or will, or kNever.
   const std::vector<Picoseconds>& arrivals() const { return arrivals_; }
 

@@ -66,8 +66,9 @@ void add_dram_device(RawConfig& raw, const std::vector<std::filesystem::path>& p
 void refuse_bus_keys(const RawConfig& raw, const MachineConfig& machine) {
   if (machine.memory.model != MemoryModel::kDram) return;
   const auto refuse = [&raw](const std::string& key, const std::string& instead) {
-    throw UserError(fmt::format("{}: {} has no effect with memory.model = \"dram\"; set {}, or memory.model = \"bus\"",
-                                raw.at(key).origin, key, instead));
+    throw UserError(
+        fmt::format("{}: {} has no effect with memory.model = \"dram\"; set {}, or memory.model = \"bus\"",
+                    raw.at(key).origin, key, instead));
   };
   const MachineConfig defaults;  // which a preset that lists all keys has, too
   if (machine.memory.bytes_per_cycle != defaults.memory.bytes_per_cycle) {

@@ -19,8 +19,7 @@ void describe(Schema& schema, DramTiming& timing);
 void validate(const DramTiming& timing);
 
 /// The values of a device's file and of those that it inherits: keys dram.*; see load_dram_device().
-RawConfig read_dram_device(const std::string& name,
-                           const std::vector<std::filesystem::path>& preset_folders);
+RawConfig read_dram_device(const std::string& name, const std::vector<std::filesystem::path>& preset_folders);
 
 /// A device by name, from `memory/<name>.toml` in the preset folders, or by path. Throws UserError, one line:
 /// not found, unreadable, an unknown key, a value out of range.

@@ -31,13 +31,14 @@ struct MemoryConfig {
 
   std::uint32_t bytes_per_cycle = 8;  ///< bus: bytes per cycle of clocks.memory_hz, 1 to 1024; I
 
-  std::string device = "ddr3-1066-x32";                     ///< DRAM: where `dram` comes from
-  DramTiming dram;                                          ///< DRAM: the rank of devices
-  DramMapping mapping = DramMapping::kRowBankColumn;        ///< DRAM; own choice
-  std::uint32_t read_queue = 32;                            ///< DRAM: bursts, 1 to 1024; own choice
-  std::uint32_t write_queue = 32;                           ///< DRAM: bursts, 1 to 1024; own choice
-  std::uint32_t write_high = 26;  ///< DRAM: writes queued at which a batch begins, 1 to write_queue; own choice
-  std::uint32_t write_low = 6;    ///< DRAM: writes queued at which it ends, below write_high; own choice
+  std::string device = "ddr3-1066-x32";               ///< DRAM: where `dram` comes from
+  DramTiming dram;                                    ///< DRAM: the rank of devices
+  DramMapping mapping = DramMapping::kRowBankColumn;  ///< DRAM; own choice
+  std::uint32_t read_queue = 32;                      ///< DRAM: bursts, 1 to 1024; own choice
+  std::uint32_t write_queue = 32;                     ///< DRAM: bursts, 1 to 1024; own choice
+  std::uint32_t write_high =
+      26;                       ///< DRAM: writes queued at which a batch begins, 1 to write_queue; own choice
+  std::uint32_t write_low = 6;  ///< DRAM: writes queued at which it ends, below write_high; own choice
 
   /// Throws UserError when values are fine alone but not together.
   void validate() const;

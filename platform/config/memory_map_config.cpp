@@ -14,11 +14,12 @@ void describe(Schema& schema, MemoryMapConfig& config) {
                  "Buffers without an address of their own begin at multiples of this.", origin);
   const auto place = [&](const std::string& name, MemoryMapConfig::Place& field, const std::string& what,
                          bool several) {
-    schema.integer("memory_map." + name + ".address", field.address, {MemoryMapConfig::kAutomatic, kTebibyte}, "B",
-                   "Address of " + what + "; -1: after the buffer before.", origin);
+    schema.integer("memory_map." + name + ".address", field.address, {MemoryMapConfig::kAutomatic, kTebibyte},
+                   "B", "Address of " + what + "; -1: after the buffer before.", origin);
     if (!several) return;
     schema.integer("memory_map." + name + ".pitch", field.pitch, {0, kTebibyte}, "B",
-                   "From one of these buffers to the next; 0: as close as memory_map.alignment allows.", origin);
+                   "From one of these buffers to the next; 0: as close as memory_map.alignment allows.",
+                   origin);
   };
   place("left", config.left, "the first left image", true);
   place("right", config.right, "the first right image", true);

@@ -13,7 +13,8 @@ struct MemoryMapConfig {
   static constexpr std::int64_t kAutomatic = -1;
   struct Place {
     std::int64_t address = kAutomatic;  ///< B, of the first of several buffers; own choice
-    std::int64_t pitch = 0;  ///< B from one buffer to the next; 0 = as close as the alignment allows; own choice
+    std::int64_t pitch =
+        0;  ///< B from one buffer to the next; 0 = as close as the alignment allows; own choice
   };
 
   std::int64_t alignment = 4096;  ///< B, 1 to 1 GiB; own choice

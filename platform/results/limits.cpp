@@ -68,9 +68,10 @@ std::vector<PartLoad> part_loads(const Machine& machine, const SteadyWindow& win
 
   if (const Memory* memory = machine.memory()) {
     const Cycles work = last.memory - first.memory;
-    loads.push_back({"memory", config.memory.model == MemoryModel::kDram ? "memory.device" : "memory.bytes_per_cycle",
-                     ratio(work, memory->cycle_at_or_after(last.time) - memory->cycle_at_or_after(first.time)),
-                     memory->seconds(work) / frames});
+    loads.push_back(
+        {"memory", config.memory.model == MemoryModel::kDram ? "memory.device" : "memory.bytes_per_cycle",
+         ratio(work, memory->cycle_at_or_after(last.time) - memory->cycle_at_or_after(first.time)),
+         memory->seconds(work) / frames});
   }
 
   const ClockDomain& camera_clock = machine.camera_clock();

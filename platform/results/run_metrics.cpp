@@ -88,8 +88,10 @@ void add_port(MetricGroup& group, const BusMaster& port, const SteadyWindow& win
   };
   latency("latency_mean", latencies.mean(), "From request to answer of a burst.");
   latency("latency_p50", latencies.percentile(0.5), "Half of the bursts are answered in this time (+1.6 %).");
-  latency("latency_p95", latencies.percentile(0.95), "95 % of the bursts are answered in this time (+1.6 %).");
-  latency("latency_p99", latencies.percentile(0.99), "99 % of the bursts are answered in this time (+1.6 %).");
+  latency("latency_p95", latencies.percentile(0.95),
+          "95 % of the bursts are answered in this time (+1.6 %).");
+  latency("latency_p99", latencies.percentile(0.99),
+          "99 % of the bursts are answered in this time (+1.6 %).");
   latency("latency_largest", latencies.largest(), "From request to answer of a burst.");
 }
 
@@ -97,15 +99,21 @@ void add_dram(MetricGroup& memory, const DramStatistics& first, const DramStatis
               const SteadyWindow& window) {
   const auto per_frame = [&](const char* name, std::uint64_t from, std::uint64_t to, const char* unit,
                              const char* description) {
-    memory.add({name, static_cast<double>(to - from) / static_cast<double>(std::max<std::size_t>(1, window.frames())),
-                unit, description, window.text});
+    memory.add(
+        {name,
+         static_cast<double>(to - from) / static_cast<double>(std::max<std::size_t>(1, window.frames())),
+         unit, description, window.text});
   };
   const auto bursts = static_cast<double>(last.reads + last.writes - first.reads - first.writes);
-  memory.add({"row_hits", bursts == 0 ? 0 : 100.0 * (1.0 - static_cast<double>(last.activates - first.activates) / bursts),
-              "%", "DRAM bursts that opened no row.", window.text});
-  per_frame("bursts", first.reads + first.writes, last.reads + last.writes, "bursts", "DRAM bursts, a frame.");
+  memory.add(
+      {"row_hits",
+       bursts == 0 ? 0 : 100.0 * (1.0 - static_cast<double>(last.activates - first.activates) / bursts), "%",
+       "DRAM bursts that opened no row.", window.text});
+  per_frame("bursts", first.reads + first.writes, last.reads + last.writes, "bursts",
+            "DRAM bursts, a frame.");
   per_frame("activates", first.activates, last.activates, "rows", "DRAM rows opened, a frame.");
-  per_frame("refreshes", first.refreshes, last.refreshes, "refreshes", "DRAM refreshes of all banks, a frame.");
+  per_frame("refreshes", first.refreshes, last.refreshes, "refreshes",
+            "DRAM refreshes of all banks, a frame.");
   per_frame("turn_arounds", first.turn_arounds, last.turn_arounds, "turns",
             "Changes of the DRAM's data bus between reading and writing, a frame.");
 }
@@ -121,7 +129,8 @@ void add_memory(MetricGroup& root, const Machine& machine, const SteadyWindow& w
   const double elapsed = seconds(last.time - first.time);
   const auto share = [&](Cycles taken) {
     const Cycles cycles = model->cycle_at_or_after(last.time) - model->cycle_at_or_after(first.time);
-    return 100.0 * (static_cast<double>(taken.count()) / static_cast<double>(std::max<std::int64_t>(1, cycles.count())));
+    return 100.0 * (static_cast<double>(taken.count()) /
+                    static_cast<double>(std::max<std::int64_t>(1, cycles.count())));
   };
   std::uint64_t total = 0;
   Cycles total_bus;  // whole cycles, so that a bus that is always taken is so for 100 %
@@ -133,7 +142,8 @@ void add_memory(MetricGroup& root, const Machine& machine, const SteadyWindow& w
     total_bus += bus;
     add_port(group, *ports[id], window, bytes, elapsed);
     if (model != nullptr) {
-      group.add({"share", share(bus), "%", "Time in which the memory's bus was taken for the port.", window.text});
+      group.add(
+          {"share", share(bus), "%", "Time in which the memory's bus was taken for the port.", window.text});
     }
   }
   const EncodedMap& map = machine.map();
@@ -145,7 +155,8 @@ void add_memory(MetricGroup& root, const Machine& machine, const SteadyWindow& w
   memory.add({"usable_bandwidth", model->usable_bandwidth() / 1e6, "MB/s", "Peak times efficiency.", ""});
   memory.add({"share", share(total_bus), "%", "Time in which the memory's bus was taken.", window.text});
   memory.add({"at_work", share(last.memory - first.memory), "%",
-              "Time in which the memory was at work: its bus taken, or, in a DRAM, rows opened, the bus turned around "
+              "Time in which the memory was at work: its bus taken, or, in a DRAM, rows opened, the bus "
+              "turned around "
               "or refreshes waited for.",
               window.text});
   if (machine.config().memory.model == MemoryModel::kDram) add_dram(memory, first.dram, last.dram, window);

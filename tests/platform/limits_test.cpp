@@ -36,7 +36,7 @@ TEST_F(Limits, TheLimitingPartIsNamed) {
   EXPECT_EQ(limit(run("--size 64x48 --set link.line_rate=1e6")), "link");
   EXPECT_EQ(limit(run("--size 64x48 --set clocks.camera_hz=1e6")), "camera");
   EXPECT_EQ(limit(run("--size 64x48 --set camera.frame_rate=30")), "camera_frame_rate");
-  EXPECT_EQ(limit(run("--size 64x48 --set memory.bytes_per_cycle=1 --set clocks.memory_hz=20e6 "
+  EXPECT_EQ(limit(run("--size 64x48 --set memory.model=bus --set memory.bytes_per_cycle=1 --set clocks.memory_hz=20e6 "
                       "--set software.queue_frames=true")),
             "memory");
   EXPECT_EQ(limit(run("--size 256x192 --disparities 256 --set link.host_pixel_rate=0")), "core");
@@ -82,7 +82,7 @@ TEST_F(Limits, CamerasThatCannotWaitDropWhatFindsNoBuffer) {
 
 TEST_F(Limits, TheSteadyStateDoesNotDependOnItsLength) {
   const std::string slow =
-      "--size 64x48 --set memory.bytes_per_cycle=1 --set clocks.memory_hz=50e6 --timing-frames ";
+      "--size 64x48 --set memory.model=bus --set memory.bytes_per_cycle=1 --set clocks.memory_hz=50e6 --timing-frames ";
   const double expected = rate(run(slow + "60"));
   for (const char* frames : {"4", "8", "9", "20"})
     EXPECT_NEAR(rate(run(slow + frames)) / expected, 1, 2e-3) << frames;

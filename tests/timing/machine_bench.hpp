@@ -24,6 +24,7 @@ inline MachineConfig preset(const std::vector<std::string>& assignments = {}) {
 /// results stay in the memory.
 inline MachineConfig pipeline_alone(MachineConfig config) {
   constexpr std::int64_t kFast = 10'000'000'000;
+  config.memory.model = MemoryModel::kBus;
   config.clocks.memory_hz = kFast;
   config.clocks.camera_hz = kFast;
   config.memory.bytes_per_cycle = 1024;

@@ -65,9 +65,11 @@ TEST(MachineValues, DoNotDependOnTheMemory) {
   ASSERT_GT(values(usual).size(), 3u * kWidth * kHeight * 4) << usual;
   const std::vector<std::vector<std::string>> others{
       {"memory.latency_cycles=5000"},
-      {"memory.bytes_per_cycle=1", "memory.efficiency=3"},
+      {"memory.model=bus", "memory.bytes_per_cycle=1", "memory.efficiency=3"},
+      {"memory.device=ddr4-2400-x64", "memory.mapping=rbcg"},
+      {"memory.device=lpddr4-3200-x32", "memory.mapping=brc", "memory_map.alignment=32768"},
       {"memory.queue_depth=1", "memory.arbitration=fixed_priority"},
-      {"clocks.memory_hz=10000019", "memory.queue_depth=1"},
+      {"memory.model=bus", "clocks.memory_hz=10000019", "memory.queue_depth=1"},
       {"dma.left.outstanding=1", "dma.map.fifo_bytes=128", "dma.output.outstanding=1"},
       {"dma.left.fifo_bytes=128", "dma.right.fifo_bytes=256", "dma.link.fifo_bytes=128"},
       {"dma.left.burst_bytes=8", "dma.right.burst_bytes=4096", "dma.right.fifo_bytes=4096"},

@@ -67,11 +67,12 @@ inline MachineCase random_machine(std::uint32_t seed, Contention contention) {
   set("dma.camera.burst_bytes", 8 << number(0, 4));
   if (contention == Contention::kNone) {
     // All ports at once are served within any cycle of the others' clocks.
-    for (const char* fast : {"clocks.memory_hz=10000000000", "memory.bytes_per_cycle=1024",
+    for (const char* fast : {"memory.model=bus", "clocks.memory_hz=10000000000", "memory.bytes_per_cycle=1024",
                              "memory.efficiency=100", "memory.latency_cycles=0"}) {
       c.others.emplace_back(fast);
     }
   } else {
+    c.others.emplace_back("memory.model=bus");
     c.speeds["clocks.memory_hz"] = hertz(20, 600);
     c.speeds["memory.bytes_per_cycle"] = 1 << number(0, 4);
     set("memory.queue_depth", number(1, 4));

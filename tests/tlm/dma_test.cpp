@@ -8,6 +8,7 @@
 
 #include "tests/timing/date_log.hpp"
 #include "tests/timing/in_child.hpp"
+#include "tests/tlm/bus_memory.hpp"
 #include "tests/tlm/random_memory.hpp"
 #include "tests/tlm/thread.hpp"
 #include "tlm/memory.hpp"
@@ -129,7 +130,7 @@ const ClockDomain& memory_clock() {
 TEST(DmaReader, DatesByHand) {
   // Requests in cycles 0, 1, 2, 3; a burst is two cycles on the bus, then three of latency. The fifth request
   // waits for the first answer.
-  ReaderBench<Memory> b(engine(16, 4, 8), 6, 0, plain_memory(), memory_clock());
+  ReaderBench<BusMemoryTarget> b(engine(16, 4, 8), 6, 0, plain_memory(), memory_clock());
   b.reader.start({0, {96}, false, nullptr});
   sc_core::sc_start();
   EXPECT_EQ(b.dates.written, Dates({5, 7, 9, 11, 13, 15}));
@@ -137,14 +138,14 @@ TEST(DmaReader, DatesByHand) {
 }
 
 TEST(DmaReader, OneOutstandingRequestWaitsOutEachLatency) {
-  ReaderBench<Memory> b(engine(16, 1, 8), 4, 0, plain_memory(), memory_clock());
+  ReaderBench<BusMemoryTarget> b(engine(16, 1, 8), 4, 0, plain_memory(), memory_clock());
   b.reader.start({0, {64}, false, nullptr});
   sc_core::sc_start();
   EXPECT_EQ(b.dates.written, Dates({5, 10, 15, 20}));
 }
 
 TEST(DmaReader, IsOccupiedWhileRequestsAreUnderWay) {
-  ReaderBench<Memory> b(engine(16, 4, 8), 6, 0, plain_memory(), memory_clock());
+  ReaderBench<BusMemoryTarget> b(engine(16, 4, 8), 6, 0, plain_memory(), memory_clock());
   b.reader.start({0, {96}, false, nullptr});
   const std::vector<std::int64_t> requested{0, 1, 2, 3, 5, 7};
   const std::vector<std::int64_t> answered{5, 7, 9, 11, 13, 15};
@@ -164,7 +165,7 @@ TEST(DmaReader, IsOccupiedWhileRequestsAreUnderWay) {
 }
 
 TEST(DmaReader, EachJobIsDoneWithItsLastAnswer) {
-  ReaderBench<Memory> b(engine(16, 4, 8), 4, 0, plain_memory(), memory_clock());
+  ReaderBench<BusMemoryTarget> b(engine(16, 4, 8), 4, 0, plain_memory(), memory_clock());
   Dates done;
   const auto note = [&] { done.push_back(b.clock.now().count()); };
   b.reader.start({0, {16}, false, note});
@@ -177,7 +178,7 @@ TEST(DmaReader, EachJobIsDoneWithItsLastAnswer) {
 }
 
 TEST(DmaReader, AShortLastBurstTakesLessTime) {
-  ReaderBench<Memory> b(engine(16, 1, 8), 2, 0, plain_memory(), memory_clock());
+  ReaderBench<BusMemoryTarget> b(engine(16, 1, 8), 2, 0, plain_memory(), memory_clock());
   b.reader.start({0, {17}, false, nullptr});
   sc_core::sc_start();
   EXPECT_EQ(b.dates.written, Dates({5, 9}));
@@ -186,7 +187,7 @@ TEST(DmaReader, AShortLastBurstTakesLessTime) {
 
 TEST(DmaReader, ReservesAPlaceInItsFifoForEachRequest) {
   // Nobody reads: two places, two requests.
-  ReaderBench<Memory> b(engine(16, 4, 2), 0, 0, plain_memory(), memory_clock());
+  ReaderBench<BusMemoryTarget> b(engine(16, 4, 2), 0, 0, plain_memory(), memory_clock());
   b.reader.start({0, {160}, false, nullptr});
   sc_core::sc_start();
   EXPECT_EQ(b.dates.written, Dates({5, 7}));
@@ -194,7 +195,7 @@ TEST(DmaReader, ReservesAPlaceInItsFifoForEachRequest) {
 }
 
 TEST(DmaReader, AsksForTheNextBurstWhenAPlaceIsFreed) {
-  ReaderBench<Memory> b(engine(16, 4, 1), 3, 0, plain_memory(), memory_clock());
+  ReaderBench<BusMemoryTarget> b(engine(16, 4, 1), 3, 0, plain_memory(), memory_clock());
   b.reader.start({0, {48}, false, nullptr});
   sc_core::sc_start();
   // Read in 6, free and requested in 7, 5 cycles later there.
@@ -202,7 +203,7 @@ TEST(DmaReader, AsksForTheNextBurstWhenAPlaceIsFreed) {
 }
 
 TEST(DmaReader, CountsTheCyclesThatLackOfRoomCosts) {
-  ReaderBench<Memory> b(engine(16, 4, 1), 3, 0, plain_memory(), memory_clock());
+  ReaderBench<BusMemoryTarget> b(engine(16, 4, 1), 3, 0, plain_memory(), memory_clock());
   b.reader.start({0, {48}, false, nullptr});
   sc_core::sc_start();
   // It could ask again in 1 and in 8; there is room in 7 and in 14.
@@ -210,7 +211,7 @@ TEST(DmaReader, CountsTheCyclesThatLackOfRoomCosts) {
 }
 
 TEST(DmaReader, BringsTheBytesOfSeveralJobs) {
-  ReaderBench<Memory> b(engine(32, 4, 4), 4 + 2 + 1, 3, plain_memory(), memory_clock());
+  ReaderBench<BusMemoryTarget> b(engine(32, 4, 4), 4 + 2 + 1, 3, plain_memory(), memory_clock());
   const Values bytes = pattern(1 << 16);
   std::vector<std::string> done;
   Thread filling("filling", [&] {
@@ -232,7 +233,7 @@ TEST(DmaReader, BringsTheBytesOfSeveralJobs) {
 }
 
 TEST(DmaReader, RowsWithAPitchArePiecesOfTheirOwn) {
-  ReaderBench<Memory> b(engine(32, 4, 4), 3 * 2 + 1, 0, plain_memory(), memory_clock());
+  ReaderBench<BusMemoryTarget> b(engine(32, 4, 4), 3 * 2 + 1, 0, plain_memory(), memory_clock());
   const Values bytes = pattern(1 << 16);
   Thread filling("filling", [&] {
     fill(b.reader.master, bytes);
@@ -254,7 +255,7 @@ TEST(DmaReader, AnErrorOfTheMemoryIsReported) {
 #ifdef PARALLAX_SANITIZED
   GTEST_SKIP() << "the sanitizer does not follow an exception through the stacks of the kernel's threads";
 #endif
-  ReaderBench<Memory> b(engine(16, 4, 8), 6, 0, plain_memory(), memory_clock());
+  ReaderBench<BusMemoryTarget> b(engine(16, 4, 8), 6, 0, plain_memory(), memory_clock());
   b.reader.start({(1 << 16) - 8, {16}, false, nullptr});
   try {
     sc_core::sc_start();
@@ -321,7 +322,7 @@ struct WriterBench {
 TEST(DmaWriter, ABurstLeavesTheFifoWhenTheMemoryTakesIt) {
   BusMemory t = plain_memory();
   t.queue_depth = 1;
-  WriterBench<Memory> b(engine(32, 8, 8), {}, 4, t, memory_clock());
+  WriterBench<BusMemoryTarget> b(engine(32, 8, 8), {}, 4, t, memory_clock());
   Cycles done;
   b.writer.start({0, {128}, false, [&] { done = b.clock.now(); }});
   sc_core::sc_start();
@@ -333,7 +334,7 @@ TEST(DmaWriter, ABurstLeavesTheFifoWhenTheMemoryTakesIt) {
 }
 
 TEST(DmaWriter, CountsTheCyclesThatLackOfATokenCosts) {
-  WriterBench<Memory> b(engine(32, 8, 8), {}, 2, plain_memory(), memory_clock());
+  WriterBench<BusMemoryTarget> b(engine(32, 8, 8), {}, 2, plain_memory(), memory_clock());
   b.writer.start({0, {64}, false, nullptr});
   sc_core::sc_start();
   EXPECT_EQ(b.dates.read, Dates({1, 2}));
@@ -364,7 +365,7 @@ TEST(DmaWriter, PutsTheBytesOfSeveralJobsInPlace) {
 }
 
 TEST(DmaWriter, ReportsABurstWithoutItsBytes) {
-  WriterBench<Memory> b(engine(32, 8, 8), Values(31), 1, plain_memory(), memory_clock());
+  WriterBench<BusMemoryTarget> b(engine(32, 8, 8), Values(31), 1, plain_memory(), memory_clock());
   b.writer.start({0, {32}, true, nullptr});
   try {
     sc_core::sc_start();

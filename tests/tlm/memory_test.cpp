@@ -30,7 +30,7 @@ BusMemory timing() {
 
 struct Bench {
   explicit Bench(const BusMemory& t = timing(), int ports = 1, std::int64_t hz = 1'000'000'000)
-      : clock("memory", Hertz(hz)), memory("memory", t, std::make_unique<BusScheduler>(t, clock)) {
+      : clock("memory", Hertz(hz)), memory("memory", t, clock) {
     for (int i = 0; i < ports; ++i) {
       initiators.push_back(std::make_unique<ProtocolInitiator>(sc_core::sc_gen_unique_name("initiator")));
       initiators.back()->socket.bind(memory.socket);
@@ -52,7 +52,7 @@ struct Bench {
     return all;
   }
   ClockDomain clock;
-  Memory memory;
+  BusMemoryTarget memory;
   std::vector<std::unique_ptr<ProtocolInitiator>> initiators;
   std::vector<std::unique_ptr<Thread>> threads;
 };
