@@ -258,7 +258,8 @@ void DramController::lose_time(Clock at, Clock& column_free, std::int64_t& lost)
 bool DramController::serve_alone(const Burst& burst, std::uint64_t number, Clock clock, Clock limit,
                                  std::vector<Done>& done) {
   limit = std::min(limit, refresh_due_);
-  if (!idle() || command_free_ >= limit) return false;
+  const std::size_t places = burst.write ? policy_.write_queue : policy_.read_queue;
+  if (!idle() || number > places || command_free_ >= limit) return false;
   // The dates, by the same rules as those of the queue, for one bank and one row.
   const Bank& bank = banks_[burst.place.bank];
   Clock next = std::max(command_free_, clock + 1);
