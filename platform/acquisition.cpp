@@ -148,8 +148,9 @@ void Acquisition::expose(std::int64_t frame) {
   });
   const std::vector<std::uint32_t> rows(static_cast<std::size_t>(input_.height),
                                         static_cast<std::uint32_t>(input_.width));
-  dma_left_.start({buffer(frame).left, rows, values, done});
-  dma_right_.start({buffer(frame).right, rows, values, done});
+  const std::function<void()> begun = [this, frame] { listener_.begun(frame); };
+  dma_left_.start({buffer(frame).left, rows, values, done, 0, begun});
+  dma_right_.start({buffer(frame).right, rows, values, done, 0, begun});
   left_sensor_.read_out(images.left);
   right_sensor_.read_out(images.right);
 }

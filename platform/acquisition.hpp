@@ -25,7 +25,8 @@ class Acquisition final : public sc_core::sc_module {
   /// Told of each frame, in order.
   struct Listener {
     std::function<void(std::int64_t frame, bool values)> exposed;  ///< `values`: it carries images
-    std::function<void(std::int64_t frame)> in_memory;             ///< both images are complete
+    std::function<void(std::int64_t frame)> begun;      ///< the first bytes of an image are in memory
+    std::function<void(std::int64_t frame)> in_memory;  ///< both images are complete
   };
 
   Acquisition(const sc_core::sc_module_name& name, const MachineConfig& config, const MachineInput& input,

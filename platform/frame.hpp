@@ -20,6 +20,7 @@ struct StereoFrame {
 /// When a frame reached the parts of the machine, in kernel time.
 struct FrameTimes {
   sc_core::sc_time exposed;          ///< end of exposure, read-out begins
+  sc_core::sc_time first_byte;       ///< the first burst of either image in memory
   sc_core::sc_time in_memory;        ///< both images complete in memory, processing begins
   sc_core::sc_time first_disparity;  ///< first disparity out of the last filter
   sc_core::sc_time last_disparity;   ///< last disparity out of the last filter

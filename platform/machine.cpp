@@ -36,7 +36,19 @@ std::unique_ptr<Memory> make_memory(const MachineConfig& config, const MachineIn
   return std::make_unique<Memory>("memory", target, memory_scheduler(config.memory, clock));
 }
 
+// Frames whose dates and activities are kept beyond the warm-up, at the beginning and at the end of a run:
+// more than can be under way.
+constexpr std::size_t kRecords = 160;
+
 }  // namespace
+
+std::int64_t warm_up_frames(const MachineConfig& config) {
+  return std::int64_t{config.camera.frame_buffers} + config.link.output_buffers;
+}
+
+std::size_t steady_first(const MachineConfig& config, std::int64_t frames) {
+  return static_cast<std::size_t>(std::max<std::int64_t>(0, std::min(warm_up_frames(config), frames - 2)));
+}
 
 const std::vector<const char*>& Machine::port_names() {
   static const std::vector<const char*> names{"camera_left", "camera_right", "left", "right",
@@ -60,12 +72,21 @@ Machine::Machine(const sc_core::sc_module_name& name, const MachineConfig& confi
       acquisition_("acquisition", config_, input_, memory_map_, camera_clock_, dataflow_,
                    {[this](std::int64_t, bool values) {
                       values_.push_back(values);
-                      times_.emplace_back();
+                      times_.push_back({});
                       times_.back().exposed = sc_core::sc_time_stamp();
+                    },
+                    [this](std::int64_t frame) {
+                      sc_core::sc_time& date = times_[static_cast<std::size_t>(frame)].first_byte;
+                      if (date == sc_core::SC_ZERO_TIME) date = sc_core::sc_time_stamp();
                     },
                     [this](std::int64_t frame) { frame_in_memory(frame); }}),
       core_("core", config_, input_, {tiles_, map(), memory_map_.map}, core_clock_, dataflow_),
-      transmission_("transmission", config_, link_clock_, dataflow_) {
+      transmission_("transmission", config_, link_clock_, dataflow_),
+      latencies_(steady_first(config, input.frames)) {
+  const auto kept = static_cast<std::size_t>(warm_up_frames(config)) + kRecords;
+  times_.keep(kept);
+  activities_.keep(kept);
+  core_.pipeline().keep_frames(kept);
   const std::vector<BusMaster*> all = masters();
   for (std::size_t port = 0; port < all.size(); ++port) {
     if (memory_) {
@@ -163,7 +184,9 @@ void Machine::take_row(const Disparity* row) {
 }
 
 void Machine::deliver(std::int64_t frame, const std::vector<std::uint8_t>& bytes) {
-  times_[static_cast<std::size_t>(frame)].at_host = sc_core::sc_time_stamp();
+  FrameTimes& times = times_[static_cast<std::size_t>(frame)];
+  times.at_host = sc_core::sc_time_stamp();
+  latencies_.add(static_cast<std::size_t>(frame), times);
   activities_.push_back(activity());
   --output_buffers_used_;
   start_when_possible();

@@ -10,14 +10,24 @@
 #include "platform/acquisition.hpp"
 #include "platform/config/machine_config.hpp"
 #include "platform/frame.hpp"
+#include "platform/frame_latencies.hpp"
 #include "platform/machine_input.hpp"
 #include "platform/memory_map.hpp"
 #include "platform/stereo_core.hpp"
 #include "platform/tile_plan.hpp"
 #include "platform/transmission.hpp"
+#include "tlm/kept_records.hpp"
 #include "tlm/memory.hpp"
 
 namespace parallax {
+
+/// Frames until all buffers have been filled and handed on once; before that the rate is that of buffers
+/// filling.
+std::int64_t warm_up_frames(const MachineConfig& config);
+
+/// Number of the first frame of the steady state in a run of `frames`; where that is shorter than the
+/// warm-up, of its last but one.
+std::size_t steady_first(const MachineConfig& config, std::int64_t frames);
 
 /// The whole machine: acquisition, memory, stereo core, transmission, and what hands frames from one to the
 /// next. Several frames are in flight: one is read out while another is processed and a third
@@ -33,10 +43,13 @@ class Machine final : public sc_core::sc_module {
 
   const MachineConfig& config() const { return config_; }
   const MachineInput& input() const { return input_; }
-  /// Of all frames that were exposed, more than `input.frames`; those after it may be unfinished.
-  const std::vector<FrameTimes>& times() const { return times_; }
-  /// What had happened when the host had a frame, an entry for each frame delivered.
-  const std::vector<Activity>& activities() const { return activities_; }
+  /// Of all frames that were exposed, more than `input.frames`; those after it may be unfinished. Of long
+  /// runs the first and the last frames only, at least 160 beyond the warm-up.
+  const KeptRecords<FrameTimes>& times() const { return times_; }
+  /// What had happened when the host had a frame, an entry for each frame delivered; kept likewise.
+  const KeptRecords<Activity>& activities() const { return activities_; }
+  /// Of all frames delivered.
+  const FrameLatencies& latencies() const { return latencies_; }
   /// Requests that the DMA engine of each memory port can have under way.
   std::vector<std::uint32_t> dma_places() const;
   const Pipeline& pipeline() const { return core_.pipeline(); }
@@ -85,8 +98,9 @@ class Machine final : public sc_core::sc_module {
   StereoCore core_;
   Transmission transmission_;
 
-  std::vector<FrameTimes> times_;
-  std::vector<Activity> activities_;
+  KeptRecords<FrameTimes> times_;
+  KeptRecords<Activity> activities_;
+  FrameLatencies latencies_;
   std::vector<bool> values_;           // whether a frame carries images
   std::int64_t in_memory_ = 0;         // frames
   std::int64_t started_ = 0;           // of them, in the core or through it

@@ -203,6 +203,10 @@ void Pipeline::bind(StreamOut<std::uint8_t>& left, StreamOut<std::uint8_t>& righ
 
 StageInfo Pipeline::last_filter() const { return {&noise_reduction_, noise_reduction_.storage(), tiles_}; }
 
+void Pipeline::keep_frames(std::size_t frames) {
+  for (const StageInfo& info : stages()) const_cast<Stage*>(info.stage)->keep_frames(frames * info.passes);
+}
+
 std::vector<StageInfo> Pipeline::stages() const {
   // The map, and the results, of all tiles are one frame each.
   return {{&unpack_left_, Bits(config_.dma.left.burst_bytes * 8), tiles_},

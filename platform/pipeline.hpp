@@ -51,6 +51,9 @@ class Pipeline final : public sc_core::sc_module {
   void bind(StreamOut<std::uint8_t>& left, StreamOut<std::uint8_t>& right, StreamOut<std::uint8_t>& map,
             StreamIn<std::uint8_t>& output);
 
+  /// Of every stage, the dates of the first and the last `frames` frames are kept; see Stage::keep_frames().
+  void keep_frames(std::size_t frames);
+
   OutputPackingStage& output() { return output_packing_; }
   /// The stage whose tokens are the final disparities.
   StageInfo last_filter() const;

@@ -60,6 +60,7 @@ bool DmaEngine::have_burst() {
     piece_address_ = job_.address;
     free_ = std::max(free_, clock_.now());
     const std::uint64_t pieces = piece_ == 0 ? 0 : bytes_ / piece_;
+    if (job_.begun && piece_ > 0) ends_.push_back({requested_ + 1, std::move(job_.begun), last_answer_});
     ends_.push_back(
         {requested_ + pieces * burst_count(piece_, Bytes(burst_)), std::move(job_.done), last_answer_});
     finish_jobs();  // it may be without bytes

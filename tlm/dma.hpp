@@ -40,6 +40,7 @@ struct DmaJob {
   std::function<void()> done;            ///< called when the last burst is answered
   std::uint64_t pitch =
       0;  ///< bytes from one row's begin to the next one's, the rows being equally long; or 0
+  std::function<void()> begun{};  ///< called when the first burst is answered
 
   std::uint64_t bytes() const;
   /// Bytes of a piece; the transfer's own where it is one piece.

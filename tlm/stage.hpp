@@ -10,6 +10,7 @@
 
 #include "tlm/clock_domain.hpp"
 #include "tlm/dataflow.hpp"
+#include "tlm/kept_records.hpp"
 #include "tlm/schedule.hpp"
 #include "tlm/stream.hpp"
 #include "tlm/units.hpp"
@@ -75,10 +76,12 @@ class Stage : public sc_core::sc_module, public Actor {
     return statistics_;
   }
   /// One entry a frame whose first firing is known; the last one may be unfinished.
-  const std::vector<FrameDates>& frames() const {
+  const KeptRecords<FrameDates>& frames() const {
     dataflow_.bring_up_to_date();
     return frames_;
   }
+  /// At least the first and the last `number` of these are kept; all, unless this is called.
+  void keep_frames(std::size_t number) { frames_.keep(number); }
   /// The streams at input (output) port `port`, in order of binding; after elaboration.
   std::vector<const StreamBase*> input_streams(unsigned port) const { return at_port(inputs_, port); }
   std::vector<const StreamBase*> output_streams(unsigned port) const { return at_port(outputs_, port); }
@@ -182,7 +185,7 @@ class Stage : public sc_core::sc_module, public Actor {
   std::uint64_t left_ = 0;     // of these, firings whose writing date is known
   Cycles last_write_{-1};
   StageStatistics statistics_;
-  std::vector<FrameDates> frames_;
+  KeptRecords<FrameDates> frames_;
 };
 
 }  // namespace parallax

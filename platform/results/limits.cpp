@@ -35,24 +35,20 @@ const PartLoad& first_at_largest(const std::vector<PartLoad>& loads) {
 
 }  // namespace
 
-std::int64_t warm_up_frames(const MachineConfig& config) {
-  return std::int64_t{config.camera.frame_buffers} + config.link.output_buffers;
-}
-
 std::int64_t frames_to_simulate(const MachineConfig& config, std::int64_t input_frames,
                                 std::optional<std::int64_t> asked) {
   return std::max(input_frames, asked.value_or(warm_up_frames(config) + kMeasuredFrames));
 }
 
 SteadyWindow steady_window(const Machine& machine) {
-  const std::vector<Activity>& activities = machine.activities();
+  const KeptRecords<Activity>& activities = machine.activities();
   SteadyWindow window;
   window.last = activities.size() - 1;
   if (window.last == 0) {
     window.text = "frame 1";
     return window;
   }
-  window.first = std::min(static_cast<std::size_t>(warm_up_frames(machine.config())), window.last - 1);
+  window.first = steady_first(machine.config(), machine.input().frames);
   window.period = (activities[window.last].time - activities[window.first].time).to_seconds() /
                   static_cast<double>(window.frames());
   window.text = fmt::format("frames {} to {}", window.first + 2, window.last + 1);

@@ -21,10 +21,6 @@ struct SteadyWindow {
   std::size_t frames() const { return last - first; }
 };
 
-/// Frames until all buffers have been filled and handed on once; before that the rate is that of buffers
-/// filling.
-std::int64_t warm_up_frames(const MachineConfig& config);
-
 /// Frames that a run simulates: all of the input, and at least `asked`; if nothing is asked, so many that two
 /// frame periods lie after the warm-up.
 std::int64_t frames_to_simulate(const MachineConfig& config, std::int64_t input_frames,

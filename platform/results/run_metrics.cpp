@@ -28,27 +28,21 @@ void add_performance(MetricGroup& root, const Machine& machine, const SteadyWind
 }
 
 void add_latency(MetricGroup& root, const Machine& machine, const SteadyWindow& window) {
-  const std::vector<FrameTimes>& times = machine.times();
-  const auto add = [&](MetricGroup& group, const char* name, const char* description, auto from, auto to) {
-    const auto of = [&](const FrameTimes& t) { return seconds(t.*to - t.*from) * 1e3; };
-    group.add({std::string(name) + "_first_frame", of(times.front()), "ms", description, "frame 1"});
-    double sum = 0, largest = 0;
-    for (std::size_t i = window.first; i <= window.last; ++i) {
-      sum += of(times[i]);
-      largest = std::max(largest, of(times[i]));
-    }
-    group.add({std::string(name) + "_mean", sum / static_cast<double>(window.last - window.first + 1), "ms",
-               description, window.text});
-    group.add({std::string(name) + "_largest", largest, "ms", description, window.text});
-  };
   MetricGroup& group = root.group("latency");
-  add(group, "first_pixel",
-      "From the frame complete in memory to its first disparity out of the last filter.",
-      &FrameTimes::in_memory, &FrameTimes::first_disparity);
-  add(group, "last_pixel", "From the frame complete in memory to its last disparity out of the last filter.",
-      &FrameTimes::in_memory, &FrameTimes::last_disparity);
-  add(group, "exposure_to_host", "From the end of exposure to the frame's last bit at the host.",
-      &FrameTimes::exposed, &FrameTimes::at_host);
+  const FrameLatencies& latencies = machine.latencies();
+  for (std::size_t i = 0; i < frame_spans().size(); ++i) {
+    const FrameSpan& span = frame_spans()[i];
+    const LatencyHistogram& steady = latencies.steady(i);
+    const auto add = [&](const char* what, const sc_core::sc_time& time, const std::string& frames) {
+      group.add({fmt::format("{}_{}", span.name, what), seconds(time) * 1e3, "ms", span.description, frames});
+    };
+    add("first_frame", span.of(latencies.first_frame()), "frame 1");
+    add("mean", steady.mean(), window.text);
+    add("p50", steady.percentile(0.5), window.text);
+    add("p95", steady.percentile(0.95), window.text);
+    add("p99", steady.percentile(0.99), window.text);
+    add("largest", steady.largest(), window.text);
+  }
 }
 
 void add_limit(MetricGroup& root, const Machine& machine, const SteadyWindow& window) {
@@ -71,6 +65,20 @@ void add_limit(MetricGroup& root, const Machine& machine, const SteadyWindow& wi
   for (const PartLoad& load : all) {
     parts.add(
         {load.part, 100.0 * load.share, "%", "Share of the time in which the part is at work.", window.text});
+  }
+}
+
+// Cycles in which a port of the core held up the stage at its other end.
+void add_stalls(MetricGroup& memory, const Machine& machine, const SteadyWindow& window) {
+  const double frames = static_cast<double>(std::max<std::size_t>(1, window.frames()));
+  for (const auto& [port, stage] : {std::pair{"left", "unpack_left"}, std::pair{"right", "unpack_right"},
+                                    std::pair{"map", "unpack_map"}, std::pair{"output", "output_packing"}}) {
+    for (const StageInfo& info : machine.pipeline().stages()) {
+      if (info.stage->basename() != std::string(stage)) continue;
+      memory.group(port).add(
+          {"stalls", static_cast<double>(stage_time(info, window).memory.count()) / frames, "cycles",
+           "Core cycles a frame in which this port held back the stage next to it.", window.text});
+    }
   }
 }
 
@@ -146,6 +154,7 @@ void add_memory(MetricGroup& root, const Machine& machine, const SteadyWindow& w
           {"share", share(bus), "%", "Time in which the memory's bus was taken for the port.", window.text});
     }
   }
+  add_stalls(memory, machine, window);
   const EncodedMap& map = machine.map();
   memory.group("map").add({"bytes_per_pixel_and_image", map.bytes_per_pixel(), "B",
                            "Compressed size of the rectification map by pixels of both images.", ""});
