@@ -48,6 +48,7 @@ void describe(Schema& schema, MachineConfig& config) {
   describe(schema, config.gap_interpolation);
   describe(schema, config.noise_reduction);
   describe(schema, config.timing);
+  describe(schema, config.energy);
 }
 
 }  // namespace parallax

@@ -14,6 +14,7 @@
 #include "platform/config/camera_config.hpp"
 #include "platform/config/clock_config.hpp"
 #include "platform/config/dma_config.hpp"
+#include "platform/config/energy_config.hpp"
 #include "platform/config/image_config.hpp"
 #include "platform/config/link_config.hpp"
 #include "platform/config/memory_config.hpp"
@@ -37,6 +38,7 @@ struct MachineConfig {
   SoftwareConfig software;
   StreamConfig streams;
   TileConfig tiles;
+  EnergyConfig energy;
 
   RectificationConfig rectification;
   CensusConfig census;

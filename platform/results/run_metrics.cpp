@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "platform/results/energy.hpp"
 #include "platform/results/limits.hpp"
 #include "platform/results/stage_time.hpp"
 #include "platform/version.hpp"
@@ -307,6 +308,7 @@ MetricGroup measure(const Machine& machine, const RunTotals& totals, int image_w
   add_latency(root, machine, window);
   add_limit(root, machine, window);
   add_memory(root, machine, window);
+  add_energy(root, estimate_energy(machine.config().energy, energy_activity(machine, window)), window.text);
   add_pipeline(root, machine, window);
 
   MetricGroup& quality = root.group("quality");

@@ -25,7 +25,7 @@ struct RunTotals {
 };
 
 /// Everything that `timing.json` and the summary say of a run: "run", "input", "performance", "latency",
-/// "limit", "memory", "stages", "streams", "quality".
+/// "limit", "memory", "energy", "stages", "streams", "quality".
 MetricGroup measure(const Machine& machine, const RunTotals& totals, int image_width, int image_height);
 
 /// The summary that a person reads, from that tree.

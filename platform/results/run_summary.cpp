@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "platform/machine.hpp"
 #include "platform/results/run_metrics.hpp"
 
@@ -41,6 +43,25 @@ std::string limit_line(const MetricGroup& m) {
   return fmt::format("limit               {} at {:.1f} % of the time ({}); next {} at {:.1f} fps\n",
                      word(m, "limit/part"), number(m, "limit/utilisation"), word(m, "limit/key"),
                      word(m, "limit/next_part"), number(m, "limit/next_frame_rate"));
+}
+
+std::string energy_lines(const MetricGroup& m) {
+  constexpr std::size_t kPartsInALine = 5;
+  const std::string power = "power_";
+  std::string text = fmt::format("energy              {:.2f} W estimated, {:.1f} mJ a frame",
+                                 number(m, "energy/power_total"), number(m, "energy/frame_total"));
+  std::size_t parts = 0;
+  for (const MetricGroup& group : m.groups) {
+    if (group.name != "energy") continue;
+    for (const Metric& metric : group.metrics) {
+      if (metric.name.rfind(power, 0) != 0 || metric.name == "power_total") continue;
+      std::string name = metric.name.substr(power.size());
+      std::replace(name.begin(), name.end(), '_', ' ');
+      text += parts++ % kPartsInALine == 0 ? "\n                    " : ", ";
+      text += fmt::format("{} {:.2f}", name, std::get<double>(metric.value));
+    }
+  }
+  return text + "\n";
 }
 
 std::string quality_lines(const MetricGroup& m) {
@@ -105,6 +126,7 @@ std::string summary(const MetricGroup& m) {
   text += memory_lines(m);
   text += fmt::format("                    the map takes {:.3f} B per pixel and image\n",
                       number(m, "memory/map/bytes_per_pixel_and_image"));
+  text += energy_lines(m);
   text += quality_lines(m);
   return text;
 }
