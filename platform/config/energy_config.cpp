@@ -50,7 +50,9 @@ void describe_memory(Schema& schema, EnergyConfig& config) {
               inferred("two devices, each some 33 mA above standby at 1.5 V during tRC = 50 ns (IDD0 of "
                        "usual DDR3-1066 devices, method of Micron TN-41-01)"));
   schema.integer("energy.dram_access_bytes", config.dram_access_bytes, {1, 4096}, "B",
-                 "Bytes of one access to the DRAM, of which energy.dram_row_hits find their row open.",
+                 "Bytes of one access to the memory when it is modelled as a bus; energy.dram_row_hits of "
+                 "these find their row "
+                 "open. A DRAM counts the rows that it opens itself.",
                  derived("a burst of eight transfers of 32 bits"));
   schema.real("energy.dram_row_hits", config.dram_row_hits, {0, 100}, "%",
               "Share of the accesses that find their row open; the others open one.",

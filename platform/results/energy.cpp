@@ -75,6 +75,9 @@ EnergyActivity energy_activity(const Machine& machine, const SteadyWindow& windo
     activity.memory_bytes += bytes;
     if (std::strncmp(Machine::port_names()[port], "camera", 6) == 0) activity.camera_bytes += bytes;
   }
+  if (machine.memory() != nullptr && machine.memory()->commands() != nullptr) {
+    activity.rows_opened = static_cast<double>(last.dram.activates - first.dram.activates);
+  }
   activity.on_chip_bytes = 2 * activity.memory_bytes;
   activity.link = machine.config().link.enabled;
   activity.link_bits = machine.link_clock().seconds(last.wire - first.wire) *
@@ -94,7 +97,8 @@ EnergyEstimate estimate_energy(const EnergyConfig& config, const EnergyActivity&
   estimate.seconds = activity.seconds;
   estimate.frames = activity.frames;
   const double s = activity.seconds;
-  const double misses = activity.memory_bytes / config.dram_access_bytes * (1 - config.dram_row_hits / 100);
+  const double opened = activity.rows_opened.value_or(activity.memory_bytes / config.dram_access_bytes *
+                                                      (1 - config.dram_row_hits / 100));
   const double transfers = activity.memory_bytes * kBitsPerByte * config.dram_bit_pj * kPico;
   const double link = config.link_w * s + activity.link_bits * config.link_bit_pj * kPico;
   estimate.parts = {
@@ -106,7 +110,7 @@ EnergyEstimate estimate_energy(const EnergyConfig& config, const EnergyActivity&
        activity.core_cycles * config.core_cycle_pj * kPico},
       {"on_chip_memory", "line buffers and FIFOs", activity.on_chip_bytes * config.on_chip_byte_pj * kPico},
       {"memory", "the DRAM: background, rows opened, bits moved",
-       config.dram_background_w * s + misses * config.dram_activate_nj * kNano + transfers},
+       config.dram_background_w * s + opened * config.dram_activate_nj * kNano + transfers},
       {"link", "the Ethernet transceiver and the bits sent", activity.link ? link : 0},
       {"cameras", "the interface to the cameras, without the cameras",
        config.camera_interface_w * s + activity.camera_bytes * config.camera_byte_pj * kPico},

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,17 +13,18 @@ namespace parallax {
 
 /// What the machine did in some time, in the units that EnergyConfig prices.
 struct EnergyActivity {
-  double seconds = 0;        ///< that all of it took, above 0
-  double frames = 0;         ///< that were delivered, above 0
-  double census_bits = 0;    ///< that the matcher compared
-  double path_updates = 0;   ///< evaluations times paths
-  double stage_bits = 0;     ///< read by the other stages, memory ports left out
-  double core_cycles = 0;    ///< cycles of the core's clock
-  double on_chip_bytes = 0;  ///< written and read
-  double memory_bytes = 0;   ///< through all ports of the memory
-  double link_bits = 0;      ///< on the wire
-  double camera_bytes = 0;   ///< from both cameras
-  bool link = true;          ///< whether there is one
+  double seconds = 0;                 ///< that all of it took, above 0
+  double frames = 0;                  ///< that were delivered, above 0
+  double census_bits = 0;             ///< that the matcher compared
+  double path_updates = 0;            ///< evaluations times paths
+  double stage_bits = 0;              ///< read by the other stages, memory ports left out
+  double core_cycles = 0;             ///< cycles of the core's clock
+  double on_chip_bytes = 0;           ///< written and read
+  double memory_bytes = 0;            ///< through all ports of the memory
+  std::optional<double> rows_opened;  ///< by the DRAM's controller; none: estimated from the bytes
+  double link_bits = 0;               ///< on the wire
+  double camera_bytes = 0;            ///< from both cameras
+  bool link = true;                   ///< whether there is one
 };
 
 /// Of the steady window; when it holds no frame, from the run's begin until the host has the only frame, with

@@ -212,7 +212,10 @@ TEST_F(EnergyReport, MemoryLinkAndCamerasByTheBytesReported) {
     bytes += value(tree, std::string("memory/") + port + "/bytes_per_frame");
   }
   EXPECT_NEAR(value(tree, "energy/frame_memory"),
-              per_frame(tree, 0.15) + bytes * 8 * 20e-9 + bytes / 32 / 4 * 5e-6, 1e-9);
+              per_frame(tree, 0.15) + bytes * 8 * 20e-9 + value(tree, "memory/activates") * 5e-6, 1e-9);
+  const nlohmann::json bus = run("--set memory.model=bus");
+  EXPECT_NEAR(value(bus, "energy/frame_memory"),
+              per_frame(bus, 0.15) + bytes * 8 * 20e-9 + bytes / 32 / 4 * 5e-6, 1e-9);
   const double cameras =
       value(tree, "memory/camera_left/bytes_per_frame") + value(tree, "memory/camera_right/bytes_per_frame");
   EXPECT_NEAR(value(tree, "energy/frame_cameras"), per_frame(tree, 1.0) + cameras * 100e-9, 1e-9);

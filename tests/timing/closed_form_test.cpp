@@ -139,7 +139,7 @@ Compared compare(const MachineConfig& given, int width, int height, std::int64_t
     if (!machine.finished()) return "00stuck:\n" + describe(machine.dataflow().waits());
     const Expected e = expected(machine);
     const std::int64_t begin = machine.core_clock().cycle_at_or_after(machine.times()[0].in_memory).count();
-    const std::vector<FrameDates>& filtered = machine.pipeline().last_filter().stage->frames();
+    const KeptRecords<FrameDates>& filtered = machine.pipeline().last_filter().stage->frames();
     std::ostringstream out;
     out << e.dates_hold << e.period_holds;
     const auto check = [&](const char* what, std::int64_t want, Cycles have) {

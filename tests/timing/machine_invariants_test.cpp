@@ -50,10 +50,11 @@ std::string check_shares(const Machine& machine, const MachineCase& c) {
   const Json tree = to_json(measure(machine, {}, c.width, c.height));
   for (const StageInfo& info : machine.pipeline().stages()) {
     const std::string name = info.stage->basename();
-    const std::vector<FrameDates>& frames = info.stage->frames();
+    const KeptRecords<FrameDates>& frames = info.stage->frames();
     StageStatistics before;
     Cycles began(0);
-    for (const FrameDates& frame : frames) {
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+      const FrameDates& frame = frames[i];
       StageStatistics part = frame.before;
       part -= before;
       text += check_parts(name, parts(part), (frame.first_firing - began).count());

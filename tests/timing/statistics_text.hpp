@@ -29,7 +29,8 @@ inline std::string text_of(const StageStatistics& s) {
 
 inline std::string statistics_text(const Stage& stage) {
   std::string text = fmt::format("{}: {}\n", stage.name(), text_of(stage.statistics()));
-  for (const FrameDates& frame : stage.frames()) {
+  for (std::size_t i = 0; i < stage.frames().size(); ++i) {
+    const FrameDates& frame = stage.frames()[i];
     text += fmt::format("  fired {} to {}, wrote {} to {}, before {}\n", frame.first_firing.count(),
                         frame.last_firing.count(), frame.first_write.count(), frame.last_write.count(),
                         text_of(frame.before));

@@ -36,8 +36,8 @@ void check(const Fraction& f, std::uint64_t value) {
 TEST(Ratio, IsExactForClocks) {
   std::mt19937_64 random(1);
   constexpr std::uint64_t kPicoseconds = 1'000'000'000'000;
-  for (const std::uint64_t hz : {1ull, 3ull, 32'768ull, 80'000'000ull, 125'000'000ull, 171'999'997ull, 533'333'333ull,
-                                 999'999'999'989ull, 1'000'000'000'000ull}) {
+  for (const std::uint64_t hz : {1ull, 3ull, 32'768ull, 80'000'000ull, 125'000'000ull, 171'999'997ull,
+                                 533'333'333ull, 999'999'999'989ull, 1'000'000'000'000ull}) {
     for (int i = 0; i < 20'000; ++i) {
       const std::uint64_t value = random() >> (1 + random() % 63);
       check({kPicoseconds, hz}, value);
@@ -63,7 +63,8 @@ TEST(Ratio, IsExactForAnyFraction) {
 
 TEST(Ratio, IsExactAtTheEndsOfItsRange) {
   const std::uint64_t most = (1ull << 63) - 1;
-  for (const Fraction f : {Fraction{1, 1}, Fraction{1, most}, Fraction{most, most}, Fraction{most - 1, most}}) {
+  for (const Fraction f :
+       {Fraction{1, 1}, Fraction{1, most}, Fraction{most, most}, Fraction{most - 1, most}}) {
     for (const std::uint64_t value : {std::uint64_t{0}, std::uint64_t{1}, most - 1, most}) check(f, value);
   }
 }

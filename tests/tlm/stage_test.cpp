@@ -105,7 +105,7 @@ TEST(Stage, FramesFollowWithoutAGap) {
   const auto dates = model.run();
   EXPECT_EQ(dates[0].read, Dates({1, 2, 4, 5}));
   EXPECT_EQ(dates[1].written, Dates({3, 4, 6, 7}));
-  const std::vector<FrameDates>& frames = model.stage(1).frames();
+  const KeptRecords<FrameDates>& frames = model.stage(1).frames();
   ASSERT_EQ(frames.size(), 2u);
   EXPECT_EQ(frames[0].first_firing.count(), 1);
   EXPECT_EQ(frames[0].last_firing.count(), 3);
