@@ -14,17 +14,22 @@ MetricGroup& MetricGroup::group(const std::string& group_name) {
   return groups.back();
 }
 
-const Metric& MetricGroup::at(const std::string& path) const {
+const Metric* MetricGroup::find(const std::string& path) const {
   const std::size_t slash = path.find('/');
   if (slash != std::string::npos) {
     for (const MetricGroup& child : groups) {
-      if (child.name == path.substr(0, slash)) return child.at(path.substr(slash + 1));
+      if (child.name == path.substr(0, slash)) return child.find(path.substr(slash + 1));
     }
   } else {
     for (const Metric& metric : metrics) {
-      if (metric.name == path) return metric;
+      if (metric.name == path) return &metric;
     }
   }
+  return nullptr;
+}
+
+const Metric& MetricGroup::at(const std::string& path) const {
+  if (const Metric* metric = find(path)) return *metric;
   throw std::out_of_range("no metric " + path);
 }
 

@@ -28,6 +28,8 @@ struct MetricGroup {
   void add(Metric metric) { metrics.push_back(std::move(metric)); }
   /// The metric at a path such as "memory/map/bytes_per_frame"; throws std::out_of_range when there is none.
   const Metric& at(const std::string& path) const;
+  /// The same, or null.
+  const Metric* find(const std::string& path) const;
 };
 
 /// A group is an object of its metrics and groups; a metric is an object of value, unit, description and

@@ -21,13 +21,18 @@ std::string word(const MetricGroup& metrics, const std::string& path) {
 
 std::string memory_lines(const MetricGroup& m) {
   std::string text;
-  for (const char* port : Machine::port_names()) {
-    const std::string path = std::string("memory/") + port + "/";
-    const std::string name = std::string(port) == "map" ? "rectification map" : port;
+  std::vector<std::string> ports(Machine::port_names().begin(), Machine::port_names().end());
+  std::stable_partition(ports.begin(), ports.end(), [](const std::string& port) { return port == "map"; });
+  for (const std::string& port : ports) {
+    const std::string path = "memory/" + port + "/";
+    const std::string name = port == "map" ? "rectification map" : port;
     text += fmt::format(
-        "  {:<18}{:>9.1f} MB/s {:>6.2f} %   {:>9.0f} B a frame, latency {:>4.0f} ns mean, {:>5.0f} largest\n",
+        "  {:<18}{:>9.1f} MB/s {:>6.2f} %   {:>9.0f} B a frame, latency {:>4.0f} ns mean, {:>5.0f} p95, "
+        "{:>5.0f} "
+        "largest\n",
         name, number(m, path + "bandwidth"), number(m, path + "share"), number(m, path + "bytes_per_frame"),
-        number(m, path + "latency_mean"), number(m, path + "latency_largest"));
+        number(m, path + "latency_mean"), number(m, path + "latency_p95"),
+        number(m, path + "latency_largest"));
   }
   return text;
 }
@@ -123,6 +128,10 @@ std::string summary(const MetricGroup& m) {
   text += fmt::format("memory              {:.1f} of {:.0f} MB/s usable, {:.1f} %\n",
                       number(m, "memory/bandwidth"), number(m, "memory/usable_bandwidth"),
                       number(m, "memory/share"));
+  if (m.find("memory/row_hits") != nullptr) {
+    text += fmt::format("                    at work {:.1f} % of the time, {:.1f} % row hits\n",
+                        number(m, "memory/at_work"), number(m, "memory/row_hits"));
+  }
   text += memory_lines(m);
   text += fmt::format("                    the map takes {:.3f} B per pixel and image\n",
                       number(m, "memory/map/bytes_per_pixel_and_image"));
