@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <systemc>
+#include <utility>
 
+#include "modules/frame_changes.hpp"
 #include "modules/pixel.hpp"
 #include "modules/raster_schedule.hpp"
 #include "modules/row_join.hpp"
@@ -25,15 +28,20 @@ class CostCheckStage final : public Stage {
   CostCheckStage(const sc_core::sc_module_name& name, const Config& config, DisparityRange range,
                  std::uint32_t groups, const StageTiming& timing, const StageContext& context)
       : Stage(name, context.clock, context.dataflow, timing.latency),
-        kernel_(config, range, context.width, context.height),
+        kernel_(std::in_place, config, range, context.width, context.height),
+        changes_(context.height),
         rows_(static_cast<std::size_t>(context.width) * static_cast<std::size_t>(range.count),
               static_cast<std::size_t>(context.width),
-              [this, width = static_cast<std::size_t>(context.width)](const Cost* costs,
-                                                                      const Disparity* disparities) {
-                kernel_.push(costs, disparities,
-                             [this, width](const Disparity* out) { out_disparity.send_row(out, width); });
+              [this, range, context, width = static_cast<std::size_t>(context.width)](
+                  const Cost* costs, const Disparity* disparities) {
+                if (const auto change = changes_.at_row()) {
+                  kernel_.emplace(*change, range, context.width, context.height);
+                }
+                kernel_->push(costs, disparities,
+                              [this, width](const Disparity* out) { out_disparity.send_row(out, width); });
               }),
-        look_ahead_(look_ahead_pixels(context, kernel_.look_ahead_rows(), kernel_.look_ahead_pixels())) {
+        look_ahead_(look_ahead_pixels(context, kernel_->look_ahead_rows(), kernel_->look_ahead_pixels())),
+        storage_(kernel_->storage_bits()) {
     const auto width = static_cast<std::size_t>(context.width);
     RasterSchedule raster;
     raster.beats = groups;
@@ -48,13 +56,18 @@ class CostCheckStage final : public Stage {
     in_disparity.on_row(width, [this](const Disparity* row, std::size_t) { rows_.push_b(row); });
   }
 
+  /// The configuration for the next frame that was not told yet, or none: as before. What fixes the schedule
+  /// must not change.
+  void configure(const std::optional<Config>& config) { changes_.push(config); }
   std::uint64_t look_ahead() const { return look_ahead_; }
-  Bits storage() const { return Bits(kernel_.storage_bits()); }
+  Bits storage() const { return storage_; }
 
  private:
-  Kernel kernel_;
+  std::optional<Kernel> kernel_;
+  FrameChanges<Config> changes_;
   RowJoin<Cost, Disparity> rows_;
   std::uint64_t look_ahead_;
+  Bits storage_;
 };
 
 }  // namespace parallax

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <systemc>
+#include <utility>
 
+#include "modules/frame_changes.hpp"
 #include "modules/pixel.hpp"
 #include "modules/raster_schedule.hpp"
 #include "tlm/stage.hpp"
@@ -20,8 +23,10 @@ class DisparityFilterStage final : public Stage {
   DisparityFilterStage(const sc_core::sc_module_name& name, const Config& config, const StageTiming& timing,
                        const StageContext& context)
       : Stage(name, context.clock, context.dataflow, timing.latency),
-        kernel_(config, context.width, context.height),
-        look_ahead_(look_ahead_pixels(context, kernel_.look_ahead_rows(), kernel_.look_ahead_pixels())) {
+        kernel_(std::in_place, config, context.width, context.height),
+        changes_(context.height),
+        look_ahead_(look_ahead_pixels(context, kernel_->look_ahead_rows(), kernel_->look_ahead_pixels())),
+        storage_(kernel_->storage_bits()) {
     const auto width = static_cast<std::size_t>(context.width);
     RasterSchedule raster;
     raster.reads.every = 0b1;
@@ -29,17 +34,23 @@ class DisparityFilterStage final : public Stage {
     raster.look_ahead = look_ahead_;
     raster.timing = timing;
     set_schedule(make_schedule(context, raster));
-    in_disparity.on_row(width, [this, width](const Disparity* row, std::size_t) {
-      kernel_.push(row, [this, width](const Disparity* out) { out_disparity.send_row(out, width); });
+    in_disparity.on_row(width, [this, width, context](const Disparity* row, std::size_t) {
+      if (const auto change = changes_.at_row()) kernel_.emplace(*change, context.width, context.height);
+      kernel_->push(row, [this, width](const Disparity* out) { out_disparity.send_row(out, width); });
     });
   }
 
+  /// The configuration for the next frame that was not told yet, or none: as before. What fixes the schedule
+  /// must not change.
+  void configure(const std::optional<Config>& config) { changes_.push(config); }
   std::uint64_t look_ahead() const { return look_ahead_; }
-  Bits storage() const { return Bits(kernel_.storage_bits()); }
+  Bits storage() const { return storage_; }
 
  private:
-  Kernel kernel_;
+  std::optional<Kernel> kernel_;
+  FrameChanges<Config> changes_;
   std::uint64_t look_ahead_;
+  Bits storage_;
 };
 
 }  // namespace parallax

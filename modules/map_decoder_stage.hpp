@@ -19,8 +19,8 @@ class MapDecoderStage final : public Stage {
   StreamIn<std::uint8_t> in_words{"in_words"};  ///< a token is one word; values are the bytes of a row
   StreamOut<OffsetPair> out_map{"out_map"};
 
-  /// `word`: bytes of an input token. `map` gives the schedule, not the values; its rows are those of all passes over
-  /// an image that one transfer of the map serves.
+  /// `word`: bytes of an input token. `map` gives the schedule, not the values; its rows are those of all
+  /// passes over an image that one transfer of the map serves.
   MapDecoderStage(const sc_core::sc_module_name& name, const EncodedMap& map, Bytes word,
                   const StageTiming& timing, const StageContext& context);
 

@@ -1,20 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "modules/matching_stage.hpp"
 
+#include <utility>
+
 namespace parallax {
 
 MatchingStage::MatchingStage(const sc_core::sc_module_name& name, const MatchingConfig& config, int code_bits,
                              const StageTiming& timing, const StageContext& context)
     : Stage(name, context.clock, context.dataflow, timing.latency),
-      kernel_(config, context.width, context.height, code_bits),
-      codes_(static_cast<std::size_t>(context.width), static_cast<std::size_t>(context.width),
-             [this, length = static_cast<std::size_t>(context.width) *
-                             static_cast<std::size_t>(config.range().count)](const CensusCode* left,
-                                                                             const CensusCode* right) {
-               kernel_.push(left, right,
-                            [this, length](const Cost* costs) { out_costs.send_row(costs, length); });
-             }),
-      look_ahead_(look_ahead_pixels(context, kernel_.look_ahead_rows(), kernel_.look_ahead_pixels())) {
+      kernel_(std::in_place, config, context.width, context.height, code_bits),
+      changes_(context.height),
+      codes_(
+          static_cast<std::size_t>(context.width), static_cast<std::size_t>(context.width),
+          [this, context, code_bits,
+           length = static_cast<std::size_t>(context.width) * static_cast<std::size_t>(config.range().count)](
+              const CensusCode* left, const CensusCode* right) {
+            if (const auto change = changes_.at_row()) {
+              kernel_.emplace(*change, context.width, context.height, code_bits);
+            }
+            kernel_->push(left, right,
+                          [this, length](const Cost* costs) { out_costs.send_row(costs, length); });
+          }),
+      look_ahead_(look_ahead_pixels(context, kernel_->look_ahead_rows(), kernel_->look_ahead_pixels())),
+      storage_(kernel_->storage_bits()) {
   const auto width = static_cast<std::size_t>(context.width);
   RasterSchedule raster;
   raster.beats = static_cast<std::uint32_t>(config.iterations);

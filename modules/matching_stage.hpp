@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <systemc>
 
+#include "modules/frame_changes.hpp"
 #include "modules/matching.hpp"
 #include "modules/raster_schedule.hpp"
 #include "modules/row_join.hpp"
@@ -22,13 +24,18 @@ class MatchingStage final : public Stage {
   MatchingStage(const sc_core::sc_module_name& name, const MatchingConfig& config, int code_bits,
                 const StageTiming& timing, const StageContext& context);
 
+  /// The configuration for the next frame that was not told yet, or none: as before. What fixes the schedule
+  /// must not change.
+  void configure(const std::optional<MatchingConfig>& config) { changes_.push(config); }
   std::uint64_t look_ahead() const { return look_ahead_; }
-  Bits storage() const { return Bits(kernel_.storage_bits()); }
+  Bits storage() const { return storage_; }
 
  private:
-  Matching kernel_;
+  std::optional<Matching> kernel_;
+  FrameChanges<MatchingConfig> changes_;
   RowJoin<CensusCode, CensusCode> codes_;
   std::uint64_t look_ahead_;
+  Bits storage_;
 };
 
 }  // namespace parallax

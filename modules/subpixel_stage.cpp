@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "modules/subpixel_stage.hpp"
 
+#include <utility>
+
 namespace parallax {
 
 SubpixelStage::SubpixelStage(const sc_core::sc_module_name& name, const SubpixelConfig& config,
                              DisparityRange range, std::uint32_t groups, const StageTiming& timing,
                              const StageContext& context)
     : Stage(name, context.clock, context.dataflow, timing.latency),
-      kernel_(config, range, context.width, context.height) {
+      kernel_(std::in_place, config, range, context.width, context.height),
+      changes_(context.height),
+      storage_(kernel_->storage_bits()) {
   const auto width = static_cast<std::size_t>(context.width);
   RasterSchedule raster;
   raster.beats = groups;
@@ -15,8 +19,10 @@ SubpixelStage::SubpixelStage(const sc_core::sc_module_name& name, const Subpixel
   raster.writes.last = 0b1;
   raster.timing = timing;
   set_schedule(make_schedule(context, raster));
-  in_costs.on_row(width * static_cast<std::size_t>(range.count), [this, width](const Cost* row, std::size_t) {
-    kernel_.push(row, [this, width](const Disparity* out) { out_disparity.send_row(out, width); });
+  in_costs.on_row(width * static_cast<std::size_t>(range.count), [this, width, range, context](
+                                                                     const Cost* row, std::size_t) {
+    if (const auto change = changes_.at_row()) kernel_.emplace(*change, range, context.width, context.height);
+    kernel_->push(row, [this, width](const Disparity* out) { out_disparity.send_row(out, width); });
   });
 }
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <systemc>
 
+#include "modules/frame_changes.hpp"
 #include "modules/raster_schedule.hpp"
 #include "modules/subpixel.hpp"
 #include "tlm/stage.hpp"
@@ -20,10 +22,15 @@ class SubpixelStage final : public Stage {
   SubpixelStage(const sc_core::sc_module_name& name, const SubpixelConfig& config, DisparityRange range,
                 std::uint32_t groups, const StageTiming& timing, const StageContext& context);
 
-  Bits storage() const { return Bits(kernel_.storage_bits()); }
+  /// The configuration for the next frame that was not told yet, or none: as before. What fixes the schedule
+  /// must not change.
+  void configure(const std::optional<SubpixelConfig>& config) { changes_.push(config); }
+  Bits storage() const { return storage_; }
 
  private:
-  Subpixel kernel_;
+  std::optional<Subpixel> kernel_;
+  FrameChanges<SubpixelConfig> changes_;
+  Bits storage_;
 };
 
 }  // namespace parallax

@@ -44,6 +44,9 @@ class Texture {
  public:
   Texture(const TextureConfig& config, int width, int height);
 
+  /// For rows of the image from the next one on, which must be a frame's first; 0 judges nothing.
+  void set_threshold(int threshold) { config_.threshold = threshold; }
+
   void push_image(const Gray* row, const RowSink<Disparity>& emit);
   void push_disparity(const Disparity* row, const RowSink<Disparity>& emit);
 

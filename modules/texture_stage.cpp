@@ -7,6 +7,7 @@ TextureStage::TextureStage(const sc_core::sc_module_name& name, const TextureCon
                            const StageTiming& timing, const StageContext& context)
     : Stage(name, context.clock, context.dataflow, timing.latency),
       kernel_(config, context.width, context.height),
+      changes_(context.height),
       look_ahead_(look_ahead_pixels(context, kernel_.look_ahead_rows(), kernel_.look_ahead_pixels())) {
   const auto width = static_cast<std::size_t>(context.width);
   RasterSchedule raster;
@@ -17,7 +18,10 @@ TextureStage::TextureStage(const sc_core::sc_module_name& name, const TextureCon
   raster.timing = timing;
   set_schedule(make_schedule(context, raster));
   const RowSink<Disparity> emit = [this, width](const Disparity* out) { out_disparity.send_row(out, width); };
-  in_left.on_row(width, [this, emit](const Gray* row, std::size_t) { kernel_.push_image(row, emit); });
+  in_left.on_row(width, [this, emit](const Gray* row, std::size_t) {
+    if (const auto threshold = changes_.at_row()) kernel_.set_threshold(*threshold);
+    kernel_.push_image(row, emit);
+  });
   in_disparity.on_row(width,
                       [this, emit](const Disparity* row, std::size_t) { kernel_.push_disparity(row, emit); });
 }

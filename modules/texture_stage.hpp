@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <systemc>
 
+#include "modules/frame_changes.hpp"
 #include "modules/raster_schedule.hpp"
 #include "modules/texture.hpp"
 #include "tlm/stage.hpp"
@@ -20,12 +22,15 @@ class TextureStage final : public Stage {
   TextureStage(const sc_core::sc_module_name& name, const TextureConfig& config, const StageTiming& timing,
                const StageContext& context);
 
+  /// The threshold for the next frame that was not told yet (0: nothing is judged), or none: as before.
+  void set_threshold(const std::optional<int>& threshold) { changes_.push(threshold); }
   /// Into the image; disparities are not looked ahead to.
   std::uint64_t look_ahead() const { return look_ahead_; }
   Bits storage() const { return Bits(kernel_.storage_bits()); }
 
  private:
   Texture kernel_;
+  FrameChanges<int> changes_;  // by the image, which comes first
   std::uint64_t look_ahead_;
 };
 

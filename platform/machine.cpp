@@ -39,6 +39,7 @@ std::unique_ptr<Memory> make_memory(const MachineConfig& config, const MachineIn
 // Frames whose dates and activities are kept beyond the warm-up, at the beginning and at the end of a run:
 // more than can be under way.
 constexpr std::size_t kRecords = 160;
+constexpr std::int64_t kShortestPause = 1000;  // ns, before software tries again to start the core
 
 }  // namespace
 
@@ -80,8 +81,13 @@ Machine::Machine(const sc_core::sc_module_name& name, const MachineConfig& confi
                       if (date == sc_core::SC_ZERO_TIME) date = sc_core::sc_time_stamp();
                     },
                     [this](std::int64_t frame) { frame_in_memory(frame); }}),
-      core_("core", config_, input_, {tiles_, map(), memory_map_.map}, core_clock_, dataflow_),
+      core_("core", config_, input_, {tiles_, map()}, core_clock_, dataflow_),
       transmission_("transmission", config_, link_clock_, dataflow_),
+      facts_(core_facts()),
+      control_(
+          "control", config_, facts_,
+          {[this] { return starting_; }, [this](const FrameCommand& command) { core_started(command); }}),
+      driver_("driver"),
       latencies_(steady_first(config, input.frames)) {
   const auto kept = static_cast<std::size_t>(warm_up_frames(config)) + kRecords;
   times_.keep(kept);
@@ -95,6 +101,7 @@ Machine::Machine(const sc_core::sc_module_name& name, const MachineConfig& confi
       input.bind_memory(all[port]->socket, port_names()[port]);
     }
   }
+  driver_.socket.bind(control_.bank.socket);
   core_.pipeline().output().tap([this](const Disparity* row) { take_row(row); });
   SC_HAS_PROCESS(Machine);
   SC_METHOD(start_core);
@@ -132,14 +139,52 @@ void Machine::start_when_possible() {
   start_.notify(sc_core::sc_time(static_cast<double>(config_.software.response_ns), sc_core::SC_NS));
 }
 
+// Software's part: registers, and another try when the core does not take the frame.
 void Machine::start_core() {
+  const std::int64_t frame = started_;
+  std::optional<AlgorithmParameters> parameters;
+  if (!parameters_written_) parameters = algorithm_parameters(config_);
+  if (input_.parameters && frame < input_.frames) {
+    if (const auto changed = input_.parameters(frame)) parameters = changed;
+  }
+  if (parameters) driver_.write_parameters(config_, *parameters);
+  parameters_written_ = true;
+  const MemoryMap::FrameBuffer& buffer = acquisition_.buffer(frame);
+  if (!driver_.start({buffer.left, buffer.right, memory_map_.map, output_buffer(frame), {}}, facts_)) {
+    ++rejected_starts_;
+    const std::int64_t pause = std::max<std::int64_t>(config_.software.response_ns, kShortestPause);
+    start_.notify(sc_core::sc_time(static_cast<double>(pause), sc_core::SC_NS));
+    return;
+  }
+  start_when_possible();
+}
+
+// The core's part, within the write to its control register.
+void Machine::core_started(const FrameCommand& command) {
   starting_ = false;
   ++in_core_;
   const std::int64_t frame = started_++;
-  const MemoryMap::FrameBuffer& buffer = acquisition_.buffer(frame);
-  core_.start({buffer.left, buffer.right, values_[static_cast<std::size_t>(frame)], output_buffer(frame),
-               [this] { acquisition_.release(); }, [this, frame] { results_in_memory(frame); }});
-  start_when_possible();
+  core_.start({command.left, command.right, command.map, values_[static_cast<std::size_t>(frame)],
+               command.parameters, command.output, [this] { acquisition_.release(); },
+               [this, frame] { results_in_memory(frame); }});
+}
+
+CoreFacts Machine::core_facts() {
+  CoreFacts facts;
+  facts.width = input_.width;
+  facts.height = input_.height;
+  facts.image_bytes = static_cast<std::uint64_t>(input_.width) * static_cast<std::uint64_t>(input_.height);
+  facts.map_bytes = map().bytes.size();
+  facts.output_bytes = OutputPacking::row_bytes(input_.width) * static_cast<std::uint64_t>(input_.height);
+  facts.memory_bytes = static_cast<std::uint64_t>(config_.memory.size_bytes);
+  const auto port = [](BusMaster& master, const DmaPortConfig& config) {
+    return CoreFacts::Port{&master, config.outstanding};
+  };
+  facts.left = port(core_.left_master(), config_.dma.left);
+  facts.right = port(core_.right_master(), config_.dma.right);
+  facts.map = port(core_.map_master(), config_.dma.map);
+  facts.output = port(core_.output_master(), config_.dma.output);
+  return facts;
 }
 
 std::uint64_t Machine::output_buffer(std::int64_t frame) const {
@@ -152,6 +197,7 @@ void Machine::results_in_memory(std::int64_t frame) {
   core_taken_ = core_taken();
   core_taken_since_ = sc_core::sc_time_stamp();
   --in_core_;
+  control_.frame_done();
   const StageInfo filter = pipeline().last_filter();
   const auto index = static_cast<std::size_t>(frame);
   times.first_disparity = core_clock_.time_of(filter.first_pass(index).first_write);

@@ -13,6 +13,8 @@
 #include "platform/frame_latencies.hpp"
 #include "platform/machine_input.hpp"
 #include "platform/memory_map.hpp"
+#include "platform/registers/control_blocks.hpp"
+#include "platform/registers/core_driver.hpp"
 #include "platform/stereo_core.hpp"
 #include "platform/tile_plan.hpp"
 #include "platform/transmission.hpp"
@@ -56,6 +58,11 @@ class Machine final : public sc_core::sc_module {
   const Dataflow& dataflow() const { return dataflow_; }
   /// None when the run brought another memory along.
   const Memory* memory() const { return memory_.get(); }
+  /// The core's registers, for other initiators beside the machine's own software. Bind before the simulation
+  /// starts.
+  RegisterBank& registers() { return control_.bank; }
+  /// Starts that the core has refused (an initiator has switched it off, say); software tries again.
+  std::int64_t rejected_starts() const { return rejected_starts_; }
   /// The DMA engines' side of each memory port, in their order.
   std::vector<const BusMaster*> ports() const;
   const TilePlan& tiles() const { return tiles_; }
@@ -74,6 +81,8 @@ class Machine final : public sc_core::sc_module {
   void frame_in_memory(std::int64_t frame);
   void start_when_possible();
   void start_core();
+  void core_started(const FrameCommand& command);
+  CoreFacts core_facts();
   void results_in_memory(std::int64_t frame);
   void take_row(const Disparity* row);
   void deliver(std::int64_t frame, const std::vector<std::uint8_t>& bytes);
@@ -97,14 +106,19 @@ class Machine final : public sc_core::sc_module {
   Acquisition acquisition_;
   StereoCore core_;
   Transmission transmission_;
+  const CoreFacts facts_;
+  ControlBlocks control_;
+  CoreDriver driver_;
 
   KeptRecords<FrameTimes> times_;
   KeptRecords<Activity> activities_;
   FrameLatencies latencies_;
-  std::vector<bool> values_;           // whether a frame carries images
-  std::int64_t in_memory_ = 0;         // frames
-  std::int64_t started_ = 0;           // of them, in the core or through it
-  bool starting_ = false;              // software is about to start the next one
+  std::vector<bool> values_;         // whether a frame carries images
+  std::int64_t in_memory_ = 0;       // frames
+  std::int64_t started_ = 0;         // of them, in the core or through it
+  bool starting_ = false;            // software is about to start the next one
+  bool parameters_written_ = false;  // once, before the first frame
+  std::int64_t rejected_starts_ = 0;
   std::int64_t in_core_ = 0;           // frames
   sc_core::sc_time core_taken_;        // time in which the core worked or was about to be started, until
   sc_core::sc_time core_taken_since_;  // this date

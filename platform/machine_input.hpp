@@ -3,11 +3,13 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <systemc>
 #include <tlm>
 
 #include "modules/map_codec.hpp"
+#include "platform/algorithm_parameters.hpp"
 #include "platform/frame.hpp"
 
 namespace parallax {
@@ -23,6 +25,10 @@ struct MachineInput {
   /// the machine's own. A TLM-2.0 target that keeps to the base protocol and answers transport_dbg; it must
   /// hold data unless `timing_only`.
   std::function<void(::tlm::tlm_initiator_socket<>& socket, const std::string& port)> bind_memory;
+  /// Called, if there is one, once a frame, in order, before software starts the core with it: what software
+  /// writes into the registers of algorithm parameters then, or nothing. What is impossible sets error bits,
+  /// and the frame is processed with the last possible parameters.
+  std::function<std::optional<AlgorithmParameters>(std::int64_t frame)> parameters;
   /// Called, if there is one, once a frame, in order, when it is exposed. The cameras go on after the last
   /// one, without images, until the host has all frames, so that every frame meets the traffic of its
   /// successors.

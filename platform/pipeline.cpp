@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <initializer_list>
+#include <optional>
 
 #include "platform/engine_config.hpp"
 
@@ -68,6 +69,7 @@ Pipeline::Pipeline(const sc_core::sc_module_name& name, const MachineConfig& con
       config_(config),
       context_(context),
       tiles_(tiles.tiles.size()),
+      parameters_(algorithm_parameters(config)),
       unpack_left_("unpack_left", image_bursts(tiles, context, config.dma.left), context.clock,
                    context.dataflow),
       unpack_right_("unpack_right", image_bursts(tiles, context, config.dma.right), context.clock,
@@ -202,6 +204,26 @@ void Pipeline::bind(StreamOut<std::uint8_t>& left, StreamOut<std::uint8_t>& righ
 }
 
 StageInfo Pipeline::last_filter() const { return {&noise_reduction_, noise_reduction_.storage(), tiles_}; }
+
+void Pipeline::configure(const AlgorithmParameters& parameters) {
+  const bool changed = !(parameters == parameters_);
+  parameters_ = parameters;
+  const MachineConfig config = with_parameters(config_, parameters);
+  const auto tell = [changed](auto& stage, const auto& part) {
+    stage.configure(changed ? std::optional(part) : std::nullopt);
+  };
+  for (std::size_t pass = 0; pass < tiles_; ++pass) {
+    tell(matching_, config.matching);
+    tell(subpixel_, config.subpixel);
+    tell(uniqueness_, config.uniqueness);
+    tell(consistency_, config.consistency);
+    tell(speckle_, config.speckle);
+    tell(gap_interpolation_, config.gap_interpolation);
+    tell(noise_reduction_, config.noise_reduction);
+    const int threshold = config.texture.enabled ? config.texture.threshold : 0;
+    texture_.set_threshold(changed ? std::optional(threshold) : std::nullopt);
+  }
+}
 
 void Pipeline::keep_frames(std::size_t frames) {
   for (const StageInfo& info : stages()) const_cast<Stage*>(info.stage)->keep_frames(frames * info.passes);

@@ -19,6 +19,7 @@
 #include "modules/subpixel_stage.hpp"
 #include "modules/texture_stage.hpp"
 #include "modules/uniqueness_stage.hpp"
+#include "platform/algorithm_parameters.hpp"
 #include "platform/config/machine_config.hpp"
 #include "platform/tile_plan.hpp"
 #include "tlm/dma.hpp"
@@ -54,6 +55,9 @@ class Pipeline final : public sc_core::sc_module {
   /// Of every stage, the dates of the first and the last `frames` frames are kept; see Stage::keep_frames().
   void keep_frames(std::size_t frames);
 
+  /// For the next frame with values; each is told, in order.
+  void configure(const AlgorithmParameters& parameters);
+
   OutputPackingStage& output() { return output_packing_; }
   /// The stage whose tokens are the final disparities.
   StageInfo last_filter() const;
@@ -67,6 +71,7 @@ class Pipeline final : public sc_core::sc_module {
   const MachineConfig& config_;
   const StageContext context_;
   const std::size_t tiles_;
+  AlgorithmParameters parameters_;  // of the last frame that was told
 
   Unpacker<Gray> unpack_left_;
   Unpacker<Gray> unpack_right_;

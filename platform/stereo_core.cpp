@@ -31,6 +31,7 @@ StereoCore::StereoCore(const sc_core::sc_module_name& name, const MachineConfig&
 }
 
 void StereoCore::start(const CoreJob& job) {
+  if (job.values) pipeline_.configure(job.parameters);
   start_input(job);
   start_output(job);
 }
@@ -50,7 +51,7 @@ void StereoCore::start_input(const CoreJob& job) {
     image.address = job.right + column;
     dma_right_.start(image);
   }
-  dma_map_.start({map_.address, map_.map.row_bytes, job.values, nullptr});
+  dma_map_.start({job.map, map_.map.row_bytes, job.values, nullptr});
 }
 
 void StereoCore::start_output(const CoreJob& job) {

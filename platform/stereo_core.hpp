@@ -5,6 +5,7 @@
 #include <functional>
 #include <systemc>
 
+#include "platform/algorithm_parameters.hpp"
 #include "platform/machine_input.hpp"
 #include "platform/memory_map.hpp"
 #include "platform/pipeline.hpp"
@@ -14,9 +15,11 @@ namespace parallax {
 
 /// A frame for the core, by where its buffers lie in memory.
 struct CoreJob {
-  std::uint64_t left = 0;         ///< address of the left image, as the camera wrote it
-  std::uint64_t right = 0;        ///< likewise
-  bool values = true;             ///< false: timing only
+  std::uint64_t left = 0;   ///< address of the left image, as the camera wrote it
+  std::uint64_t right = 0;  ///< likewise
+  std::uint64_t map = 0;    ///< address of the compressed map\'s bytes
+  bool values = true;       ///< false: timing only
+  AlgorithmParameters parameters{};
   std::uint64_t output = 0;       ///< address of the results
   std::function<void()> read;     ///< called when both images have been read
   std::function<void()> written;  ///< called when the results are in memory
@@ -26,7 +29,6 @@ struct CoreJob {
 struct CoreMap {
   const TilePlan& tiles;
   const EncodedMap& map;  ///< cut for the tiles
-  std::uint64_t address;  ///< of its bytes in memory
 };
 
 /// The stereo core: the pipeline with the DMA engines of its memory ports left, right, map and output. An

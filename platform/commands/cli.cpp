@@ -15,6 +15,7 @@
 #include "platform/commands/config_command.hpp"
 #include "platform/commands/map_command.hpp"
 #include "platform/commands/memory_command.hpp"
+#include "platform/commands/registers_command.hpp"
 #include "platform/commands/run_command.hpp"
 #include "platform/commands/scene_command.hpp"
 #include "platform/commands/validate_command.hpp"
@@ -127,6 +128,7 @@ int run_command_line(int argc, const char* const* argv, std::ostream& out, std::
   add_map_command(app, context);
   add_scene_command(app, context);
   add_memory_command(app, context);
+  add_registers_command(app, context);
   add_validate_command(app, context);
 
   try {

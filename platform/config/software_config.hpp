@@ -15,6 +15,7 @@ struct SoftwareConfig {
   /// Whether a frame is handed over while the core works on the one before, so that one's end and the next
   /// one's beginning overlap; else when the core is done; own choice
   bool queue_frames = false;
+  std::uint32_t register_ns = 100;  ///< one register access, part of response_ns, 0 to 10^6; own choice
 };
 
 void describe(Schema& schema, SoftwareConfig& config);

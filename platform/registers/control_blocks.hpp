@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <systemc>
+
+#include "platform/algorithm_parameters.hpp"
+#include "platform/config/machine_config.hpp"
+#include "tlm/bus_master.hpp"
+#include "tlm/register_bank.hpp"
+
+namespace parallax {
+
+/// What a start tells the core, as the registers say it at that moment.
+struct FrameCommand {
+  std::uint64_t left = 0;    ///< address
+  std::uint64_t right = 0;   ///< address
+  std::uint64_t map = 0;     ///< address
+  std::uint64_t output = 0;  ///< address
+  AlgorithmParameters parameters;
+};
+
+/// What the control blocks have to know of the core to judge a start and to report on it.
+struct CoreFacts {
+  int width = 0;                  ///< px
+  int height = 0;                 ///< px
+  std::uint64_t image_bytes = 0;  ///< of one image in memory
+  std::uint64_t map_bytes = 0;
+  std::uint64_t output_bytes = 0;
+  std::uint64_t memory_bytes = 0;
+  struct Port {
+    const BusMaster* master;
+    std::uint32_t places;  ///< requests that it may have under way
+  };
+  Port left, right, map, output;
+};
+
+/// The core's two control blocks (register_map.hpp). A start is judged as a whole: what cannot be, sets error
+/// bits and has no other effect. Impossible algorithm parameters set error bits too, but the frame is
+/// processed with the last possible ones.
+class ControlBlocks final : public sc_core::sc_module {
+ public:
+  RegisterBank bank;
+
+  struct Hooks {
+    std::function<bool()> expected;                       ///< whether there is a frame that could be started
+    std::function<void(const FrameCommand&)> on_start{};  ///< called within the write that starts it
+  };
+
+  /// `config` must outlive the object.
+  ControlBlocks(const sc_core::sc_module_name& name, const MachineConfig& config, const CoreFacts& facts,
+                Hooks hooks);
+
+  /// The results of the oldest frame under way are in memory.
+  void frame_done();
+
+ private:
+  void start(std::uint32_t triggers);
+  bool judge_start();
+  bool judge_parameters();
+  void error(const char* block, const char* bit);
+  std::uint64_t address(const std::string& name) const;
+  std::uint32_t stereo(const char* reg, const char* field) const { return bank.get("stereo", reg, field); }
+  void show_fifo(const char* reg, const std::vector<CoreFacts::Port>& ports);
+
+  const MachineConfig& config_;
+  const CoreFacts facts_;
+  const Hooks hooks_;
+  AlgorithmParameters parameters_;  // the last possible ones
+  std::uint32_t under_way_ = 0;
+  std::uint32_t frames_done_ = 0;
+  std::uint64_t output_before_ = 0;  // bytes written before the frame
+};
+
+}  // namespace parallax

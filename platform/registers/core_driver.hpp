@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <tlm_utils/simple_initiator_socket.h>
+
+#include <cstdint>
+#include <string>
+#include <systemc>
+
+#include "platform/registers/control_blocks.hpp"
+
+namespace parallax {
+
+/// The device's software as far as it drives the core: register accesses, in the order that a program makes
+/// them. Their time is part of software.response_ns.
+class CoreDriver final : public sc_core::sc_module {
+ public:
+  tlm_utils::simple_initiator_socket<CoreDriver> socket{"socket"};
+
+  explicit CoreDriver(const sc_core::sc_module_name& name) : sc_module(name) {}
+
+  /// Writes the parameters, with the disparity range that the machine is built for.
+  void write_parameters(const MachineConfig& config, const AlgorithmParameters& parameters);
+  /// Writes what belongs to a frame and starts it; whether the core has taken it. Old errors are cleared
+  /// before, so that those of a refusal stay. The parameters in `command` are not looked at.
+  bool start(const FrameCommand& command, const CoreFacts& facts);
+
+  /// One access in no time but that of the bank; SC_REPORT_ERROR /parallax/registers/access when it is
+  /// refused.
+  std::uint32_t read(const std::string& block, const std::string& reg);
+  void write(const std::string& block, const std::string& reg, std::uint32_t value);
+
+ private:
+  void access(::tlm::tlm_command command, const std::string& block, const std::string& reg,
+              std::uint32_t& value);
+  void write_address(const std::string& name, std::uint64_t address);
+};
+
+}  // namespace parallax
