@@ -86,7 +86,7 @@ Machine::Machine(const sc_core::sc_module_name& name, const MachineConfig& confi
       facts_(core_facts()),
       control_(
           "control", config_, facts_,
-          {[this] { return starting_; }, [this](const FrameCommand& command) { core_started(command); }}),
+          {[this] { return offering_; }, [this](const FrameCommand& command) { core_started(command); }}),
       driver_("driver"),
       latencies_(steady_first(config, input.frames)) {
   const auto kept = static_cast<std::size_t>(warm_up_frames(config)) + kRecords;
@@ -150,7 +150,11 @@ void Machine::start_core() {
   if (parameters) driver_.write_parameters(config_, *parameters);
   parameters_written_ = true;
   const MemoryMap::FrameBuffer& buffer = acquisition_.buffer(frame);
-  if (!driver_.start({buffer.left, buffer.right, memory_map_.map, output_buffer(frame), {}}, facts_)) {
+  offering_ = true;
+  const bool taken =
+      driver_.start({buffer.left, buffer.right, memory_map_.map, output_buffer(frame), {}}, facts_);
+  offering_ = false;
+  if (!taken) {
     ++rejected_starts_;
     const std::int64_t pause = std::max<std::int64_t>(config_.software.response_ns, kShortestPause);
     start_.notify(sc_core::sc_time(static_cast<double>(pause), sc_core::SC_NS));
