@@ -14,17 +14,22 @@
 namespace parallax {
 namespace {
 
+std::int64_t row_bytes(const MachineConfig& config, const MachineInput& input) {
+  return static_cast<std::int64_t>(bytes_of(config.camera.format, static_cast<std::uint64_t>(input.width)));
+}
+
 // A row takes its pixels and the blanking at the pixel clock, or as long as the cable needs for it.
 SensorConfig sensor_config(const MachineConfig& config, const MachineInput& input) {
   const std::int64_t read_out = std::int64_t{input.width} + config.camera.row_blanking;
   const std::int64_t cable =
-      (std::int64_t{input.width} * config.clocks.camera_hz + config.camera.bytes_per_second - 1) /
+      (row_bytes(config, input) * config.clocks.camera_hz + config.camera.bytes_per_second - 1) /
       config.camera.bytes_per_second;
   SensorConfig sensor;
   sensor.width = input.width;
   sensor.height = input.height;
   sensor.row = Cycles(std::max(read_out, cable));
   sensor.frame_blanking = Cycles(config.camera.frame_blanking);
+  sensor.format = config.camera.format;
   sensor.burst = Bytes(config.dma.camera.burst_bytes);
   return sensor;
 }
@@ -147,7 +152,7 @@ void Acquisition::expose(std::int64_t frame) {
     listener_.in_memory(frame);
   });
   const std::vector<std::uint32_t> rows(static_cast<std::size_t>(input_.height),
-                                        static_cast<std::uint32_t>(input_.width));
+                                        static_cast<std::uint32_t>(row_bytes(config_, input_)));
   const std::function<void()> begun = [this, frame] { listener_.begun(frame); };
   dma_left_.start({buffer(frame).left, rows, values, done, 0, begun});
   dma_right_.start({buffer(frame).right, rows, values, done, 0, begun});

@@ -177,7 +177,8 @@ CoreFacts Machine::core_facts() {
   CoreFacts facts;
   facts.width = input_.width;
   facts.height = input_.height;
-  facts.image_bytes = static_cast<std::uint64_t>(input_.width) * static_cast<std::uint64_t>(input_.height);
+  facts.image_bytes = bytes_of(config_.camera.format, static_cast<std::uint64_t>(input_.width)) *
+                      static_cast<std::uint64_t>(input_.height);
   facts.map_bytes = map().bytes.size();
   facts.output_bytes = OutputPacking::row_bytes(input_.width) * static_cast<std::uint64_t>(input_.height);
   facts.memory_bytes = static_cast<std::uint64_t>(config_.memory.size_bytes);

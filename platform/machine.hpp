@@ -117,7 +117,7 @@ class Machine final : public sc_core::sc_module {
   std::int64_t in_memory_ = 0;       // frames
   std::int64_t started_ = 0;         // of them, in the core or through it
   bool starting_ = false;            // software is about to start the next one
-  bool offering_ = false;              // it writes the registers of one: no other start is expected
+  bool offering_ = false;            // it writes the registers of one: no other start is expected
   bool parameters_written_ = false;  // once, before the first frame
   std::int64_t rejected_starts_ = 0;
   std::int64_t in_core_ = 0;           // frames

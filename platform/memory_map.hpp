@@ -15,7 +15,7 @@ struct MemoryMap {
     std::uint64_t left;
     std::uint64_t right;
   };
-  std::vector<FrameBuffer> frames;     ///< width * height bytes per image
+  std::vector<FrameBuffer> frames;     ///< rows of pixels in the cameras' format
   std::uint64_t map = 0;               ///< the compressed rectification map
   std::vector<std::uint64_t> outputs;  ///< packed results (modules/output_packing.hpp)
 };

@@ -14,13 +14,16 @@ constexpr std::int64_t kGrayBits = 8;
 constexpr std::int64_t kDisparityBits = 12;
 
 // The image is one piece, or each row of a tile is (StereoCore).
-UnpackerConfig image_bursts(const TilePlan& tiles, const StageContext& context, const DmaPortConfig& port) {
-  const auto width = static_cast<std::size_t>(context.width);
-  UnpackerConfig config{context.pixels(), Bytes(port.burst_bytes), Bytes(1), width};
-  if (tiles.tiles.size() > 1) {
-    config.pieces = static_cast<std::uint64_t>(context.height);
-    config.piece_bytes = width;
-  }
+PixelUnpackConfig image_bursts(const TilePlan& tiles, const StageContext& context, PixelFormat format,
+                               const DmaPortConfig& port) {
+  PixelUnpackConfig config;
+  config.format = format;
+  config.width = static_cast<std::size_t>(context.width);
+  config.burst = Bytes(port.burst_bytes);
+  const std::uint64_t row = bytes_of(format, config.width);
+  const auto rows = static_cast<std::uint64_t>(context.height);
+  config.pieces = tiles.tiles.size() > 1 ? rows : 1;
+  config.piece_bytes = row * rows / config.pieces;
   return config;
 }
 
@@ -70,10 +73,10 @@ Pipeline::Pipeline(const sc_core::sc_module_name& name, const MachineConfig& con
       context_(context),
       tiles_(tiles.tiles.size()),
       parameters_(algorithm_parameters(config)),
-      unpack_left_("unpack_left", image_bursts(tiles, context, config.dma.left), context.clock,
-                   context.dataflow),
-      unpack_right_("unpack_right", image_bursts(tiles, context, config.dma.right), context.clock,
-                    context.dataflow),
+      unpack_left_("unpack_left", image_bursts(tiles, context, config.camera.format, config.dma.left),
+                   context.clock, context.dataflow),
+      unpack_right_("unpack_right", image_bursts(tiles, context, config.camera.format, config.dma.right),
+                    context.clock, context.dataflow),
       unpack_map_("unpack_map", map_bursts(map, config.dma.map), context.clock, context.dataflow),
       map_decoder_("map_decoder", map, Bytes(config.dma.map.data_bits / 8), config.timing.map_decoder,
                    context),

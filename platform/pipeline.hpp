@@ -14,6 +14,7 @@
 #include "modules/matching_stage.hpp"
 #include "modules/noise_reduction_stage.hpp"
 #include "modules/output_packing_stage.hpp"
+#include "modules/pixel_unpack_stage.hpp"
 #include "modules/rectification_stage.hpp"
 #include "modules/speckle_stage.hpp"
 #include "modules/subpixel_stage.hpp"
@@ -73,8 +74,8 @@ class Pipeline final : public sc_core::sc_module {
   const std::size_t tiles_;
   AlgorithmParameters parameters_;  // of the last frame that was told
 
-  Unpacker<Gray> unpack_left_;
-  Unpacker<Gray> unpack_right_;
+  PixelUnpackStage unpack_left_;
+  PixelUnpackStage unpack_right_;
   Unpacker<std::uint8_t> unpack_map_;
   MapDecoderStage map_decoder_;
   RectificationStage rectification_;

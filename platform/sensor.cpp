@@ -42,14 +42,32 @@ void Sensor::advance() {
       return;
     }
     const std::int64_t end = std::min(at_ + config_.burst.count(), bytes);
-    const std::int64_t last = end - 1;
-    const Cycles due = begin_ + config_.row * (last / config_.width) + Cycles(last % config_.width + 1);
-    const Cycles free = std::max(due, last_write_ + Cycles(1));
+    const Cycles complete = due(end - 1);
+    const Cycles free = std::max(complete, last_write_ + Cycles(1));
     const Cycles room = out.writable_at();
     last_write_ = std::max(free, room);
-    if (last_write_ > due) note_late_burst();
+    if (last_write_ > complete) note_late_burst();
     out.mark_written(last_write_, last_write_ - free);
     at_ = end;
+  }
+}
+
+// When a byte of the image is there: with the pixel that its last bit belongs to.
+Cycles Sensor::due(std::int64_t byte) const {
+  const std::int64_t last_bit = (byte % row_bytes() + 1) * 8 - 1;
+  return begin_ + config_.row * (byte / row_bytes()) + Cycles(last_bit / bits_per_pixel(config_.format) + 1);
+}
+
+void Sensor::send(const SensorImage& image) {
+  if (config_.format == PixelFormat::kMono8) {
+    out_bursts.send_row(image->data(), image->size());
+    return;
+  }
+  const auto width = static_cast<std::size_t>(config_.width);
+  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(row_bytes()));
+  for (std::size_t y = 0; y < static_cast<std::size_t>(config_.height); ++y) {
+    pack_pixels(config_.format, image->data() + y * width, width, bytes.data());
+    out_bursts.send_row(bytes.data(), bytes.size());
   }
 }
 
@@ -75,7 +93,7 @@ bool Sensor::begin_image() {
     return false;
   }
   if (const SensorImage image = exposed_.front().image) {
-    dataflow_.post([this, image] { out_bursts.send_row(image->data(), image->size()); });
+    dataflow_.post([this, image] { send(image); });
   }
   exposed_.pop_front();
   begin_ = begin;

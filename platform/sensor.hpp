@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "modules/pixel.hpp"
+#include "modules/pixel_format.hpp"
 #include "tlm/ring.hpp"
 #include "tlm/stream.hpp"
 #include "tlm/units.hpp"
@@ -20,14 +21,16 @@ struct SensorConfig {
   Cycles row{0};   ///< pixel clocks from one row's first pixel to the next one's
   Cycles frame_blanking{0};
   Bytes burst{128};
+  PixelFormat format = PixelFormat::kMono8;
 };
 
 /// One image as a sensor sees it; without pixels it has a size and a time only.
 using SensorImage = std::shared_ptr<const std::vector<Gray>>;
 
 /// One sensor of the stereo camera with its cable: reads an exposed image out in raster order, a row every
-/// `row` cycles, 8 bit a pixel, and hands it on in bursts. It cannot wait: a burst that finds the FIFO full
-/// is late. A burst's date is handed on as soon as it is known that there is room for it then.
+/// `row` cycles, a pixel a cycle in its format, and hands its bytes on in bursts. It cannot wait: a burst
+/// that finds the FIFO full is late. A burst's date is handed on as soon as it is known that there is room
+/// for it then.
 class Sensor final : public sc_core::sc_module, public Actor {
  public:
   StreamOut<std::uint8_t> out_bursts{"out_bursts"};
@@ -59,7 +62,12 @@ class Sensor final : public sc_core::sc_module, public Actor {
   bool begin_image();
   void note_late_burst();
   bool has_come(Cycles cycle) const;
-  std::int64_t image_bytes() const { return std::int64_t{config_.width} * config_.height; }
+  std::int64_t row_bytes() const {
+    return static_cast<std::int64_t>(bytes_of(config_.format, static_cast<std::uint64_t>(config_.width)));
+  }
+  std::int64_t image_bytes() const { return row_bytes() * config_.height; }
+  Cycles due(std::int64_t byte) const;
+  void send(const SensorImage& image);
 
   const SensorConfig config_;
   const ClockDomain& clock_;

@@ -1,17 +1,38 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "platform/stereo_core.hpp"
 
+#include <fmt/format.h>
+
 #include <utility>
 #include <vector>
 
 #include "platform/engine_config.hpp"
 #include "platform/when_both.hpp"
+#include "tlm/error.hpp"
 
 namespace parallax {
 namespace {
 
 std::vector<std::uint32_t> equal_rows(int rows, std::size_t bytes) {
   return std::vector<std::uint32_t>(static_cast<std::size_t>(rows), static_cast<std::uint32_t>(bytes));
+}
+
+// Rows, and those of tiles, must begin and end with a byte.
+void check_whole_bytes(PixelFormat format, int width, const TilePlan& tiles) {
+  const auto whole = [format](int pixels) { return pixels * bits_per_pixel(format) % 8 == 0; };
+  if (!whole(width)) {
+    throw UserError(
+        fmt::format("camera.format = \"mono12_packed\": rows of {} px are no whole number of bytes; "
+                    "image.width_granularity = 2 pads them",
+                    width));
+  }
+  for (const Tile& tile : tiles.tiles) {
+    if (whole(tile.begin) && whole(tiles.width)) continue;
+    throw UserError(
+        fmt::format("camera.format = \"mono12_packed\": a tile of {} px begins at column {}, which must "
+                    "both be even; tiles.left_margin and tiles.right_margin move them",
+                    tiles.width, tile.begin));
+  }
 }
 
 }  // namespace
@@ -22,11 +43,13 @@ StereoCore::StereoCore(const sc_core::sc_module_name& name, const MachineConfig&
     : sc_module(name),
       input_(input),
       map_(map),
+      format_(config.camera.format),
       dma_left_("dma_left", engine_config(config.dma.left), clock),
       dma_right_("dma_right", engine_config(config.dma.right), clock),
       dma_map_("dma_map", engine_config(config.dma.map), clock),
       dma_output_("dma_output", engine_config(config.dma.output), clock),
       pipeline_("pipeline", config, map.map, map.tiles, {clock, dataflow, map.tiles.width, input.height}) {
+  check_whole_bytes(format_, input.width, map.tiles);
   pipeline_.bind(dma_left_.out_bursts, dma_right_.out_bursts, dma_map_.out_bursts, dma_output_.in_bursts);
 }
 
@@ -38,14 +61,14 @@ void StereoCore::start(const CoreJob& job) {
 
 void StereoCore::start_input(const CoreJob& job) {
   const std::function<void()> read = when_both(job.read);
-  const auto width = static_cast<std::uint64_t>(input_.width);
+  const auto bytes = [this](int pixels) { return bytes_of(format_, static_cast<std::uint64_t>(pixels)); };
   for (const Tile& tile : map_.tiles.tiles) {
     DmaJob image;
-    image.row_bytes = equal_rows(input_.height, static_cast<std::size_t>(map_.tiles.width));
+    image.row_bytes = equal_rows(input_.height, bytes(map_.tiles.width));
     image.values = job.values;
-    if (map_.tiles.tiles.size() > 1) image.pitch = width;
+    if (map_.tiles.tiles.size() > 1) image.pitch = bytes(input_.width);
     if (&tile == &map_.tiles.tiles.back()) image.done = read;
-    const auto column = static_cast<std::uint64_t>(tile.begin);
+    const std::uint64_t column = bytes(tile.begin);
     image.address = job.left + column;
     dma_left_.start(image);
     image.address = job.right + column;

@@ -54,6 +54,7 @@ class StereoCore final : public sc_core::sc_module {
 
   const MachineInput& input_;
   const CoreMap map_;
+  const PixelFormat format_;
   DmaReader dma_left_;
   DmaReader dma_right_;
   DmaReader dma_map_;

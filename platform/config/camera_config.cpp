@@ -31,6 +31,16 @@ void CameraConfig::validate() const {
 }
 
 void describe(Schema& schema, CameraConfig& config) {
+  schema.choice(
+      "camera.format", config.format,
+      {{"mono8", PixelFormat::kMono8},
+       {"mono12_packed", PixelFormat::kMono12Packed},
+       {"mono12", PixelFormat::kMono12},
+       {"rgb8", PixelFormat::kRgb8},
+       {"bayer8", PixelFormat::kBayer8}},
+      "Format of the pixels on the cable and in memory: 1, 1.5, 2, 3 or 1 bytes a pixel. The core makes "
+      "8-bit grey of it (modules/pixel_format.hpp).",
+      stated("published list of the device's input formats; which one is in use is a choice"));
   schema.real(
       "camera.frame_rate", config.frame_rate, {0.0, 100'000.0}, "frames/s",
       "Rate at which the cameras expose, whether the machine keeps up or not: a frame that finds no frame "

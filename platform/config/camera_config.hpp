@@ -3,12 +3,15 @@
 
 #include <cstdint>
 
+#include "modules/pixel_format.hpp"
+
 namespace parallax {
 
 class Schema;
 
 /// The stereo camera: two synchronised sensors and the way of their pixels into the memory.
 struct CameraConfig {
+  PixelFormat format = PixelFormat::kMono8;  ///< as it lies in memory, too; own choice
   double frame_rate =
       0.0;  ///< frames/s, 0.001 to 100000; 0 = triggered as soon as a frame buffer is free; own choice
   std::uint32_t jitter_ns = 0;                  ///< largest delay of an exposure's end, 0 to 10^9; own choice

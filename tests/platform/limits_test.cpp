@@ -2,6 +2,9 @@
 // What limits the machine, and that the steady state is one: by the program, on small frames.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <utility>
+
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -36,9 +39,11 @@ TEST_F(Limits, TheLimitingPartIsNamed) {
   EXPECT_EQ(limit(run("--size 64x48 --set link.line_rate=1e6")), "link");
   EXPECT_EQ(limit(run("--size 64x48 --set clocks.camera_hz=1e6")), "camera");
   EXPECT_EQ(limit(run("--size 64x48 --set camera.frame_rate=30")), "camera_frame_rate");
-  EXPECT_EQ(limit(run("--size 64x48 --set memory.model=bus --set memory.bytes_per_cycle=1 --set clocks.memory_hz=20e6 "
-                      "--set software.queue_frames=true")),
-            "memory");
+  EXPECT_EQ(
+      limit(run(
+          "--size 64x48 --set memory.model=bus --set memory.bytes_per_cycle=1 --set clocks.memory_hz=20e6 "
+          "--set software.queue_frames=true")),
+      "memory");
   EXPECT_EQ(limit(run("--size 256x192 --disparities 256 --set link.host_pixel_rate=0")), "core");
   EXPECT_EQ(
       limit(run(
@@ -64,6 +69,21 @@ TEST_F(Limits, RatesEqualHandCalculation) {
   EXPECT_NEAR(rate(run("--size 64x48 --set clocks.camera_hz=1e6")), 1e6 / (48 * 96 + 2048), 1e-3);
 }
 
+// 48 rows of 64 pixels and 32 of blanking a pixel clock each, or as long as the cable needs for a row.
+TEST_F(Limits, FormatsTakeTheCableAsLongAsTheirBytes) {
+  for (const auto& [format, bytes] :
+       {std::pair{"mono8", 64.0}, std::pair{"bayer8", 64.0}, std::pair{"mono12_packed", 96.0},
+        std::pair{"mono12", 128.0}, std::pair{"rgb8", 192.0}}) {
+    const nlohmann::json tree =
+        run(std::string("--size 64x48 --set clocks.camera_hz=1e6 --set camera.bytes_per_second=1e6 "
+                        "--set camera.format=") +
+            format);
+    EXPECT_NEAR(rate(tree), 1e6 / (48 * std::max(96.0, bytes) + 2048), 1e-3) << format;
+    EXPECT_EQ(tree["memory"]["camera_left"]["bytes_per_frame"]["value"], 48 * bytes) << format;
+    EXPECT_EQ(tree["memory"]["right"]["bytes_per_frame"]["value"], 48 * bytes) << format;
+  }
+}
+
 // A host that takes 325.5 frames a second, and cameras at 400.
 TEST_F(Limits, CamerasThatCannotWaitDropWhatFindsNoBuffer) {
   const std::string slow = "--size 64x48 --timing-frames 200 --set link.host_pixel_rate=1e6 ";
@@ -82,7 +102,8 @@ TEST_F(Limits, CamerasThatCannotWaitDropWhatFindsNoBuffer) {
 
 TEST_F(Limits, TheSteadyStateDoesNotDependOnItsLength) {
   const std::string slow =
-      "--size 64x48 --set memory.model=bus --set memory.bytes_per_cycle=1 --set clocks.memory_hz=50e6 --timing-frames ";
+      "--size 64x48 --set memory.model=bus --set memory.bytes_per_cycle=1 --set clocks.memory_hz=50e6 "
+      "--timing-frames ";
   const double expected = rate(run(slow + "60"));
   for (const char* frames : {"4", "8", "9", "20"})
     EXPECT_NEAR(rate(run(slow + frames)) / expected, 1, 2e-3) << frames;
