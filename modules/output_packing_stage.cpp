@@ -48,11 +48,12 @@ Schedule packing_schedule(const OutputPackingConfig& config, const StageContext&
     for (int y = 0; y < context.height; ++y) {
       firings.drop(columns.begin);
       const std::uint64_t before =
-          one_piece ? static_cast<std::uint64_t>(y) * OutputPacking::row_bytes(width) : 0;
+          one_piece ? static_cast<std::uint64_t>(y) * OutputPacking::row_bytes(width, config.left) : 0;
       for (int x = 1; x <= width; ++x) {
         const bool last = x == width && (!one_piece || y + 1 == context.height);
         const std::uint64_t bytes =
-            x == width ? OutputPacking::row_bytes(width) : static_cast<std::uint64_t>(x) / 2 * 5;
+            x == width ? OutputPacking::row_bytes(width, config.left)
+                       : static_cast<std::uint64_t>(x) / 2 * OutputPacking::pair_bytes(config.left);
         firings.pack(before + bytes, last);
       }
       firings.drop(context.width - columns.end);
@@ -61,9 +62,11 @@ Schedule packing_schedule(const OutputPackingConfig& config, const StageContext&
   return firings.take();
 }
 
-std::vector<OutputPacking> kernels(const std::vector<PackedColumns>& passes) {
+std::vector<OutputPacking> kernels(const OutputPackingConfig& config) {
   std::vector<OutputPacking> kernels;
-  for (const PackedColumns& columns : passes) kernels.emplace_back(columns.end - columns.begin);
+  for (const PackedColumns& columns : config.passes) {
+    kernels.emplace_back(columns.end - columns.begin, config.left);
+  }
   return kernels;
 }
 
@@ -72,9 +75,10 @@ std::vector<OutputPacking> kernels(const std::vector<PackedColumns>& passes) {
 OutputPackingStage::OutputPackingStage(const sc_core::sc_module_name& name, const OutputPackingConfig& config,
                                        const StageContext& context)
     : Stage(name, context.clock, context.dataflow, 1),
+      left_(config.left),
       passes_(config.passes),
       height_(context.height),
-      kernels_(kernels(config.passes)),
+      kernels_(kernels(config)),
       burst_(config.burst.count() * 8),
       rows_(static_cast<std::size_t>(context.width), static_cast<std::size_t>(context.width),
             [this](const Gray* left, const Disparity* disparities) { pack(left, disparities); }) {
@@ -88,7 +92,7 @@ void OutputPackingStage::pack(const Gray* left, const Disparity* disparities) {
   if (tap_) tap_(disparities);
   const PackedColumns& columns = passes_[pass_];
   kernels_[pass_].push(left + columns.begin, disparities + columns.begin, [&](const std::uint8_t* row) {
-    out_bursts.send_row(row, OutputPacking::row_bytes(columns.end - columns.begin));
+    out_bursts.send_row(row, OutputPacking::row_bytes(columns.end - columns.begin, left_));
   });
   if (++y_ == height_) {
     y_ = 0;

@@ -21,6 +21,7 @@ struct PackedColumns {
 /// What output packing packs.
 struct OutputPackingConfig {
   Bytes burst{128};
+  OutputLeft left = OutputLeft::kGrey;
   std::vector<PackedColumns> passes;  ///< of one frame, each over context.height rows of context.width pixels
 };
 
@@ -46,6 +47,7 @@ class OutputPackingStage final : public Stage {
  private:
   void pack(const Gray* left, const Disparity* disparities);
 
+  const OutputLeft left_;
   const std::vector<PackedColumns> passes_;
   const int height_;
   std::vector<OutputPacking> kernels_;  // one a pass

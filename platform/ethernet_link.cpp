@@ -7,9 +7,8 @@
 namespace parallax {
 namespace {
 
-// Two pixels are five bytes (output_packing.hpp).
+// In OutputPacking::pair_bytes().
 constexpr std::int64_t kPixels = 2;
-constexpr std::int64_t kPixelBytes = 5;
 
 }  // namespace
 
@@ -21,7 +20,10 @@ EthernetLink::EthernetLink(const sc_core::sc_module_name& name, const LinkConfig
       clock_(clock),
       wire_(8 * clock.frequency().count(), config.line_rate),
       host_(config.host_pixel_rate == 0 ? 0 : kPixels * clock.frequency().count(),
-            config.host_pixel_rate == 0 ? 1 : kPixelBytes * config.host_pixel_rate) {
+            config.host_pixel_rate == 0
+                ? 1
+                : static_cast<std::int64_t>(OutputPacking::pair_bytes(config.output_left())) *
+                      config.host_pixel_rate) {
   SC_HAS_PROCESS(EthernetLink);
   SC_METHOD(advance);
   sensitive << go_on_;

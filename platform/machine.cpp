@@ -180,7 +180,8 @@ CoreFacts Machine::core_facts() {
   facts.image_bytes = bytes_of(config_.camera.format, static_cast<std::uint64_t>(input_.width)) *
                       static_cast<std::uint64_t>(input_.height);
   facts.map_bytes = map().bytes.size();
-  facts.output_bytes = OutputPacking::row_bytes(input_.width) * static_cast<std::uint64_t>(input_.height);
+  facts.output_bytes = OutputPacking::row_bytes(input_.width, config_.link.output_left()) *
+                       static_cast<std::uint64_t>(input_.height);
   facts.memory_bytes = static_cast<std::uint64_t>(config_.memory.size_bytes);
   const auto port = [](BusMaster& master, const DmaPortConfig& config) {
     return CoreFacts::Port{&master, config.outstanding};
@@ -210,8 +211,9 @@ void Machine::results_in_memory(std::int64_t frame) {
 
   DmaJob job;
   job.address = output_buffer(frame);
-  job.row_bytes.assign(static_cast<std::size_t>(input_.height),
-                       static_cast<std::uint32_t>(OutputPacking::row_bytes(input_.width)));
+  job.row_bytes.assign(
+      static_cast<std::size_t>(input_.height),
+      static_cast<std::uint32_t>(OutputPacking::row_bytes(input_.width, config_.link.output_left())));
   job.values = values_[static_cast<std::size_t>(frame)];
   transmission_.start(std::move(job),
                       [this, frame](const std::vector<std::uint8_t>& sent) { deliver(frame, sent); });
@@ -245,14 +247,14 @@ void Machine::deliver(std::int64_t frame, const std::vector<std::uint8_t>& bytes
   result.index = frame;
   if (!bytes.empty()) {
     const auto width = static_cast<std::size_t>(input_.width);
-    const std::size_t row_bytes = OutputPacking::row_bytes(input_.width);
+    const std::size_t row_bytes = OutputPacking::row_bytes(input_.width, config_.link.output_left());
     std::vector<std::uint16_t> values(width);
     result.disparities = std::move(labelled_.front());
     labelled_.pop_front();
     result.left.resize(result.disparities.size());
     for (std::size_t y = 0; y < static_cast<std::size_t>(input_.height); ++y) {
-      unpack_output(bytes.data() + y * row_bytes, input_.width, result.left.data() + y * width,
-                    values.data());
+      unpack_output(bytes.data() + y * row_bytes, input_.width, config_.link.output_left(),
+                    result.left.data() + y * width, values.data());
       for (std::size_t x = 0; x < width; ++x) {
         if (result.disparities[y * width + x].value != values[x]) {
           SC_REPORT_ERROR(

@@ -74,7 +74,8 @@ class Layout {
 MemoryMap lay_out_memory(const MachineConfig& config, int width, int height, const EncodedMap& map) {
   const std::uint64_t image =
       bytes_of(config.camera.format, static_cast<std::uint64_t>(width)) * static_cast<std::uint64_t>(height);
-  const std::uint64_t result = OutputPacking::row_bytes(width) * static_cast<std::uint64_t>(height);
+  const std::uint64_t result =
+      OutputPacking::row_bytes(width, config.link.output_left()) * static_cast<std::uint64_t>(height);
   const MemoryMapConfig& places = config.memory_map;
   Layout layout(places);
   const auto left = layout.place("left", places.left, config.camera.frame_buffers, image);

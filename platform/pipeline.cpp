@@ -27,8 +27,9 @@ PixelUnpackConfig image_bursts(const TilePlan& tiles, const StageContext& contex
   return config;
 }
 
-OutputPackingConfig packing(const TilePlan& tiles, const DmaPortConfig& port) {
+OutputPackingConfig packing(const TilePlan& tiles, OutputLeft left, const DmaPortConfig& port) {
   OutputPackingConfig config;
+  config.left = left;
   config.burst = Bytes(port.burst_bytes);
   for (const Tile& tile : tiles.tiles) {
     config.passes.push_back({tile.keep_begin - tile.begin, tile.keep_end - tile.begin});
@@ -95,7 +96,8 @@ Pipeline::Pipeline(const sc_core::sc_module_name& name, const MachineConfig& con
       gap_interpolation_("gap_interpolation", config.gap_interpolation, config.timing.gap_interpolation,
                          context),
       noise_reduction_("noise_reduction", config.noise_reduction, config.timing.noise_reduction, context),
-      output_packing_("output_packing", packing(tiles, config.dma.output), context),
+      output_packing_("output_packing", packing(tiles, config.link.output_left(), config.dma.output),
+                      context),
       left_bursts_("left_bursts", context.dataflow, context.clock, context.clock,
                    engine_config(config.dma.left).fifo()),
       right_bursts_("right_bursts", context.dataflow, context.clock, context.clock,

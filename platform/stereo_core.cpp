@@ -44,6 +44,7 @@ StereoCore::StereoCore(const sc_core::sc_module_name& name, const MachineConfig&
       input_(input),
       map_(map),
       format_(config.camera.format),
+      output_left_(config.link.output_left()),
       dma_left_("dma_left", engine_config(config.dma.left), clock),
       dma_right_("dma_right", engine_config(config.dma.right), clock),
       dma_map_("dma_map", engine_config(config.dma.map), clock),
@@ -78,12 +79,13 @@ void StereoCore::start_input(const CoreJob& job) {
 }
 
 void StereoCore::start_output(const CoreJob& job) {
+  const auto output_bytes = [this](int pixels) { return OutputPacking::row_bytes(pixels, output_left_); };
   for (const Tile& tile : map_.tiles.tiles) {
     DmaJob result;
-    result.address = job.output + OutputPacking::row_bytes(tile.keep_begin);
-    result.row_bytes = equal_rows(input_.height, OutputPacking::row_bytes(tile.keep_end - tile.keep_begin));
+    result.address = job.output + output_bytes(tile.keep_begin);
+    result.row_bytes = equal_rows(input_.height, output_bytes(tile.keep_end - tile.keep_begin));
     result.values = job.values;
-    if (map_.tiles.tiles.size() > 1) result.pitch = OutputPacking::row_bytes(input_.width);
+    if (map_.tiles.tiles.size() > 1) result.pitch = output_bytes(input_.width);
     if (&tile == &map_.tiles.tiles.back()) result.done = job.written;
     dma_output_.start(std::move(result));
   }

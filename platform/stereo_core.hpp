@@ -55,6 +55,7 @@ class StereoCore final : public sc_core::sc_module {
   const MachineInput& input_;
   const CoreMap map_;
   const PixelFormat format_;
+  const OutputLeft output_left_;
   DmaReader dma_left_;
   DmaReader dma_right_;
   DmaReader dma_map_;

@@ -20,6 +20,9 @@ void describe(Schema& schema, LinkConfig& config) {
       "link.enabled", config.enabled,
       "Whether results are sent to a host. Off: they stay in the memory and the link limits nothing.",
       stated("paper, section Architecture: output through gigabit Ethernet"));
+  schema.boolean("link.color_output", config.color_output,
+                 "Whether results carry the left image in colour: 4.5 bytes a pixel instead of 2.5.",
+                 chosen("a monochrome camera"));
   schema.integer("link.output_buffers", config.output_buffers, {1, 64}, "frames",
                  "Frames of results that the memory holds on their way to the host.",
                  chosen("not published"));

@@ -84,6 +84,18 @@ TEST_F(Limits, FormatsTakeTheCableAsLongAsTheirBytes) {
   }
 }
 
+// 4.5 bytes a pixel: a VGA image with 128 disparities is bound by the network (hardware.md 3), a small one
+// here.
+TEST_F(Limits, ColourOutputTakesTheLinkLonger) {
+  const std::string colour = "--size 64x48 --set link.color_output=true ";
+  EXPECT_NEAR(rate(run(colour + "--set link.line_rate=1e6")), 1e6 / (8 * (64 * 48 * 4.5 + 10 * 70)), 1e-3);
+  EXPECT_NEAR(rate(run(colour + "--set link.host_pixel_rate=1e6")), 1e6 / 3072, 0.01);
+  const nlohmann::json tree = run("--size 640x480 --set link.color_output=true");
+  EXPECT_EQ(limit(tree), "link");
+  EXPECT_NEAR(rate(tree), 1e9 / (8 * (640 * 480 * 4.5 + 942 * 70)), 0.01);
+  EXPECT_EQ(tree["memory"]["output"]["bytes_per_frame"]["value"], 640 * 480 * 4.5);
+}
+
 // A host that takes 325.5 frames a second, and cameras at 400.
 TEST_F(Limits, CamerasThatCannotWaitDropWhatFindsNoBuffer) {
   const std::string slow = "--size 64x48 --timing-frames 200 --set link.host_pixel_rate=1e6 ";

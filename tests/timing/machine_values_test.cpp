@@ -110,6 +110,7 @@ TEST(MachineValues, DoNotDependOnTheMemory) {
       {"memory.device=ddr4-2400-x64", "memory.mapping=rbcg"},
       {"memory.device=lpddr4-3200-x32", "memory.mapping=brc", "memory_map.alignment=32768"},
       {"camera.format=mono12_packed"},
+      {"link.color_output=true"},
       {"camera.format=mono12", "dma.left.burst_bytes=8"},
       {"camera.format=rgb8", "dma.right.burst_bytes=16", "memory_map.alignment=1"},
       {"camera.format=rgb8", "dma.camera.burst_bytes=8"},

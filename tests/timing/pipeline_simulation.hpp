@@ -39,7 +39,8 @@ struct PipelineBursts {
     for (const Tile& tile : c.tiles.tiles) {
       left += bursts(static_cast<std::uint64_t>(c.tiles.width), c.config.dma.left);
       right += bursts(static_cast<std::uint64_t>(c.tiles.width), c.config.dma.right);
-      output += bursts(OutputPacking::row_bytes(tile.keep_end - tile.keep_begin), c.config.dma.output);
+      output += bursts(OutputPacking::row_bytes(tile.keep_end - tile.keep_begin, c.config.link.output_left()),
+                       c.config.dma.output);
     }
   }
   std::uint64_t left = 0, right = 0, map, output = 0;

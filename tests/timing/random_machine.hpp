@@ -88,6 +88,9 @@ inline MachineCase random_machine(std::uint32_t seed, Contention contention) {
     set("tiles.right_margin", right);
     set("tiles.limit", std::max({8, (c.width + left + right + 1) / 2, left + right + 2}));
   }
+  const char* formats[] = {"mono8", "mono8", "mono12", "rgb8", "bayer8"};
+  c.others.push_back(std::string("camera.format=") + formats[number(0, 4)]);
+  if (number(0, 3) == 0) c.others.emplace_back("link.color_output=true");
   return c;
 }
 
