@@ -69,6 +69,7 @@ void MatchingConfig::validate() const {
                     disparity_offset, iterations, parallelism, disparity_offset + iterations * parallelism,
                     kMaxDisparities));
   }
+  check("recurrence_latency", recurrence_latency, 1, 1000);
   check("cost_weight", cost_weight, 1, kMaxCostWeight);
   check("p1", p1, 0, kMaxPenalty);
   check("p2", p2, 0, kMaxPenalty);

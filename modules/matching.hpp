@@ -55,6 +55,10 @@ struct MatchingConfig {
   int p1 = 8;   ///< penalty for a change of one disparity, 0..255, p1 < p2; S (device default)
   int p2 = 42;  ///< penalty for a larger change, 0..255; S (device default)
   unsigned paths = kFourPaths;  ///< set of PathBit, at least one; I: one pass over the image
+  /// Cycles from the start of a pixel's last iteration until the next pixel's first one may start, as that
+  /// needs the minimum over all disparities; 1..1000. Counts where it is more than the interval. Of the
+  /// stage's time, not of its values. 1 (D): the published rates leave room for no more.
+  int recurrence_latency = 1;
   OutsideCost outside_cost =
       OutsideCost::kReplicate;              ///< own choice: fewest false matches at the left border
   PathStart path_start = PathStart::kCost;  ///< own choice

@@ -26,6 +26,7 @@ MatchingStage::MatchingStage(const sc_core::sc_module_name& name, const Matching
   const auto width = static_cast<std::size_t>(context.width);
   RasterSchedule raster;
   raster.beats = static_cast<std::uint32_t>(config.iterations);
+  raster.last_interval = static_cast<std::uint32_t>(config.recurrence_latency);
   raster.reads.first = 0b11;
   raster.writes.every = 0b1;
   raster.look_ahead = look_ahead_;

@@ -13,7 +13,8 @@
 namespace parallax {
 
 /// Semi-global matching: a pair of census codes in, n_i groups of p summed path costs out, one group an
-/// iteration (matching.hpp; paper, "Stereo Matching"). The interval is per iteration. With southern paths the
+/// iteration (matching.hpp; paper, "Stereo Matching"). The interval is per iteration; a pixel takes
+/// max(n_i * interval, (n_i - 1) * interval + recurrence_latency) cycles. With southern paths the
 /// whole frame goes in before the first costs come out.
 class MatchingStage final : public Stage {
  public:

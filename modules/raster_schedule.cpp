@@ -21,12 +21,14 @@ std::vector<Phase> pixel(const RasterSchedule& raster, bool reads, bool writes) 
   std::vector<Phase> phases;
   for (std::uint32_t beat = 0; beat < beats; ++beat) {
     Phase phase{1, raster.timing.interval, 0, 0};
+    if (beat + 1 == beats) phase.interval = std::max(phase.interval, raster.last_interval);
     if (reads) phase.consume = at_beat(raster.reads, beat, beats);
     if (writes) {
       phase.consume = static_cast<PortMask>(phase.consume | at_beat(raster.reads_late, beat, beats));
       phase.produce = at_beat(raster.writes, beat, beats);
     }
-    if (!phases.empty() && phases.back().consume == phase.consume && phases.back().produce == phase.produce) {
+    if (!phases.empty() && phases.back().consume == phase.consume && phases.back().produce == phase.produce &&
+        phases.back().interval == phase.interval) {
       ++phases.back().count;
     } else {
       phases.push_back(phase);

@@ -37,7 +37,8 @@ struct RasterSchedule {
   PixelPorts reads_late;  ///< inputs that go with the pixel written, not with the pixel read
   PixelPorts writes;
   std::uint32_t beats = 1;
-  std::uint64_t look_ahead = 0;  ///< pixels, at most the frame's
+  std::uint32_t last_interval = 1;  ///< cycles after a pixel's last firing, if more than timing.interval
+  std::uint64_t look_ahead = 0;     ///< pixels, at most the frame's
   StageTiming timing;
 };
 

@@ -82,8 +82,10 @@ std::vector<Relaxation> relaxations(const MachineConfig& config, const nlohmann:
       clock("core", config.clocks.core_hz),
       memory_clock(config),
       clock("camera", config.clocks.camera_hz)};
-  if (config.timing.matching.interval > 1) {
-    all.push_back({"matching_interval", "one iteration a cycle", {"matching.interval=1"}});
+  if (config.timing.matching.interval > 1 || config.matching.recurrence_latency > 1) {
+    all.push_back({"matching_interval",
+                   "one iteration a cycle, pixel after pixel",
+                   {"matching.interval=1", "matching.recurrence_latency=1"}});
   }
   if (config.software.response_ns > 0 || !config.software.queue_frames) {
     all.push_back({"software",

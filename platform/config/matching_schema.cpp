@@ -64,6 +64,13 @@ void describe(Schema& schema, MatchingConfig& config) {
   schema.integer("matching.iterations", config.iterations, {1, 256}, "iterations",
                  "Iterations per pixel (n_i); the range is iterations x parallelism disparities.",
                  derived("paper, table 1: 128 disparities at p = 32"));
+  schema.integer(
+      "matching.recurrence_latency", config.recurrence_latency, {1, 1000}, "core cycles",
+      "Cycles from the start of a pixel's last iteration until the next pixel's first one may start, which "
+      "needs "
+      "the minimum over all disparities. A pixel takes matching.interval for each iteration, and this after "
+      "the last one if it is more.",
+      derived("paper, table 1: more than one cycle would need a faster clock than such fabric has"));
   schema.integer("matching.disparity_offset", config.disparity_offset, {0, 255}, "px",
                  "Smallest disparity (o_d); offset and range together are at most 256.",
                  stated(kDeviceSoftware));

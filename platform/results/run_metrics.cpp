@@ -306,7 +306,8 @@ MetricGroup measure(const Machine& machine, const RunTotals& totals, int image_w
               "the whole run"});
   root.group("software")
       .add({"rejected_starts", machine.rejected_starts(), "starts",
-            "Frames that the core did not take at once because of what its registers said.", "the whole run"});
+            "Frames that the core did not take at once because of what its registers said.",
+            "the whole run"});
   add_performance(root, machine, window);
   add_latency(root, machine, window);
   add_limit(root, machine, window);

@@ -35,6 +35,7 @@ TEST_F(Relax, NamesWhatWasMadeSlow) {
   EXPECT_EQ(limit("--set camera.bytes_per_second=1e6"), "camera");
   EXPECT_EQ(limit("--set software.response_ns=100000000"), "software");
   EXPECT_EQ(limit(alone + "--set matching.interval=64"), "matching_interval");
+  EXPECT_EQ(limit(alone + "--set matching.recurrence_latency=64"), "matching_interval");
   EXPECT_EQ(limit(alone + "--set clocks.core_hz=1e6"), "core_clock");
   EXPECT_EQ(limit(alone + "--set memory.model=bus --set memory.bytes_per_cycle=1 --set clocks.memory_hz=10e6"), "memory");
   EXPECT_EQ(limit("--size 320x240 -d 64 --set streams.left_texture.depth=64"), "fifos");

@@ -96,6 +96,17 @@ TEST_F(Limits, ColourOutputTakesTheLinkLonger) {
   EXPECT_EQ(tree["memory"]["output"]["bytes_per_frame"]["value"], 640 * 480 * 4.5);
 }
 
+// The matcher alone: 64 * 48 pixels of 3 iterations.
+TEST_F(Limits, TheRecurrenceHoldsUpEveryPixel) {
+  const std::string matcher = "--size 64x48 -d 96 --set matching.interval=2 ";
+  const auto cycles = [&](const std::string& more) {
+    return run(matcher + more)["stages"]["matching"]["cycles_per_frame"]["value"].get<double>();
+  };
+  EXPECT_EQ(cycles(""), 64 * 48 * 6);
+  EXPECT_EQ(cycles("--set matching.recurrence_latency=2"), 64 * 48 * 6);
+  EXPECT_EQ(cycles("--set matching.recurrence_latency=7"), 64 * 48 * (2 * 2 + 7));
+}
+
 // A host that takes 325.5 frames a second, and cameras at 400.
 TEST_F(Limits, CamerasThatCannotWaitDropWhatFindsNoBuffer) {
   const std::string slow = "--size 64x48 --timing-frames 200 --set link.host_pixel_rate=1e6 ";

@@ -67,6 +67,7 @@ inline PipelineCase random_pipeline(Depths depths, std::uint64_t frames, int lar
   config.census.window_height = 2 * number(0, 3) + 1;
   config.matching.parallelism = number(1, 8);
   config.matching.iterations = number(1, 3);
+  if (number(0, 3) == 0) config.matching.recurrence_latency = number(2, 9);
   config.consistency.enabled = number(0, 3) != 0;
   config.texture.enabled = number(0, 3) != 0;
   config.texture.window = 2 * number(1, 4) + 1;
