@@ -25,9 +25,11 @@ std::vector<EffectiveKey> fitted_keys(const std::string& preset) {
   return fitted;
 }
 
+std::string path_of(const EffectiveKey& key) { return key.section + "." + key.name; }
+
 // The assignment that scales a number; nothing for what is none.
 std::optional<std::string> scaled(const EffectiveKey& key, double factor) {
-  const std::string path = key.section + "." + key.name;
+  const std::string path = path_of(key);
   if (const auto* integer = std::get_if<std::int64_t>(&key.value)) {
     return fmt::format("{}={}", path, std::llround(static_cast<double>(*integer) * factor));
   }
@@ -35,17 +37,25 @@ std::optional<std::string> scaled(const EffectiveKey& key, double factor) {
   return std::nullopt;
 }
 
-std::vector<double> changes(const std::vector<ValidatedRow>& rows, const std::string& assignment,
+// How each row's prediction changes when its preset's own value of a fitted parameter is scaled; not at all
+// where that preset has not fitted it.
+std::vector<double> changes(const std::vector<ValidatedRow>& rows, const std::string& path, double factor,
                             const std::function<void()>& done, const std::function<bool()>& interrupted) {
   std::vector<PublishedRow> changed;
-  for (const ValidatedRow& row : rows) {
-    changed.push_back(row.row);
-    changed.back().assignments.push_back(assignment);
+  std::vector<std::size_t> places;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    for (const EffectiveKey& key : fitted_keys(rows[i].row.preset)) {
+      const std::optional<std::string> assignment = scaled(key, factor);
+      if (path_of(key) != path || !assignment) continue;
+      changed.push_back(rows[i].row);
+      changed.back().assignments.push_back(*assignment);
+      places.push_back(i);
+    }
   }
+  std::vector<double> percent(rows.size());
   const std::vector<ValidatedRow> results = validate_rows(changed, done, interrupted);
-  std::vector<double> percent;
   for (std::size_t i = 0; i < results.size(); ++i) {
-    percent.push_back(100 * (results[i].predicted / rows[i].predicted - 1));
+    percent[places[i]] = 100 * (results[i].predicted / rows[places[i]].predicted - 1);
   }
   return percent;
 }
@@ -66,12 +76,10 @@ std::vector<Sensitivity> sensitivities(const std::vector<ValidatedRow>& rows,
   std::vector<Sensitivity> result;
   if (rows.empty()) return result;
   for (const EffectiveKey& key : fitted_keys(rows.front().row.preset)) {
-    const std::optional<std::string> lower = scaled(key, 1 - kStep);
-    const std::optional<std::string> higher = scaled(key, 1 + kStep);
-    if (!lower || !higher) continue;
-    Sensitivity sensitivity{
-        key.section + "." + key.name, to_toml(key.value), changes(rows, *lower, done, interrupted), {}};
-    sensitivity.higher = changes(rows, *higher, done, interrupted);
+    if (!scaled(key, 1)) continue;
+    const std::string path = path_of(key);
+    Sensitivity sensitivity{path, to_toml(key.value), changes(rows, path, 1 - kStep, done, interrupted), {}};
+    sensitivity.higher = changes(rows, path, 1 + kStep, done, interrupted);
     if (interrupted()) return result;
     result.push_back(std::move(sensitivity));
   }

@@ -113,6 +113,27 @@ TEST_F(ValidateCommand, SensitivityToWhatIsFitted) {
   EXPECT_NE(text.out.find("  -10.00 %   +10.00 %"), std::string::npos) << text.out;
 }
 
+TEST_F(ValidateCommand, WhatAnotherPresetHasNotFittedDoesNotMoveItsRows) {
+  std::string row = kSmall;
+  row.replace(row.find(", \"link.host_pixel_rate=1e6\""), 28, "");
+  const std::string head = "description = \"\"\ninherits = \"scenescan-pro\"\n[link]\n";
+  const std::string fitted = write(
+      head + "host_pixel_rate = { value = 1_000_000, tag = \"F\", source = \"a test\" }\n", "fitted.toml");
+  const std::string stated = write(
+      head + "host_pixel_rate = { value = 1_000_000, tag = \"S\", source = \"a test\" }\n", "stated.toml");
+  const std::string rest = "published = 325\nleast = 0\nmost = 1\n";
+  const std::string rows = write("preset = \"" + fitted + "\"\n[[row]]\n" + row + rest +
+                                 "[[row]]\npreset = \"" + stated + "\"\n" + row + rest);
+  const test::Outcome outcome = program_("validate --sensitivity --json --rows " + rows);
+  const auto tree = nlohmann::json::parse(outcome.out, nullptr, false)["sensitivity"];
+  ASSERT_EQ(tree.size(), 3u) << outcome.err;
+  for (const auto& entry : tree) {
+    const bool host = entry["key"] == "link.host_pixel_rate";
+    EXPECT_NEAR(entry["rows"][0]["higher_percent"], host ? 10 : 0, 0.01) << entry;
+    EXPECT_NEAR(entry["rows"][1]["higher_percent"], 0, 0.01) << entry;
+  }
+}
+
 TEST_F(ValidateCommand, WhatMustBeRefusedAndIsNot) {
   const std::string rows =
       write(row("name = \"fits\"\nsource = \"a test\"\nsize = \"64x48\"\nrefused = true"));
