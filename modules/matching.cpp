@@ -180,18 +180,30 @@ int Matching::cost_bits() const {
 
 int Matching::look_ahead_rows() const { return one_pass() ? 0 : height_ - 1; }
 
-int Matching::look_ahead_pixels() const { return config_.paths & (kPathE | kSouthernPaths) ? width_ - 1 : 0; }
+// A second pass begins when the first one is over.
+int Matching::look_ahead_pixels() const {
+  if (!one_pass()) return width_;
+  return config_.paths & kPathE ? width_ - 1 : 0;
+}
+
+std::int64_t Matching::path_pixel_bits() const {
+  const int path_bits = bits_for(largest_cost() + kMaxPenalty);
+  return std::int64_t{path_bits} * (config_.range().count + 1);  // with the minimum
+}
 
 std::int64_t Matching::storage_bits() const {
   const std::int64_t width = width_;
   const int count = config_.range().count;
-  const int path_bits = bits_for(largest_cost() + kMaxPenalty);
-  const std::int64_t pixel_bits = std::int64_t{path_bits} * (count + 1);  // with the minimum
-  const int northern = path_count(config_.paths & (kPathNW | kPathN | kPathNE));
-  const int southern = path_count(config_.paths & kSouthernPaths);
-  const int horizontal = path_count(config_.paths & (kPathW | kPathE));
-  // The second pass runs after the first one: both share the lines.
-  std::int64_t bits = pixel_bits * (width * std::max(northern, southern) + horizontal);
+  const auto in_row = [this](unsigned paths) { return path_count(config_.paths & paths); };
+  std::int64_t pixels = path_count(config_.paths & (kPathW | kPathE));
+  if (config_.path_storage == PathStorage::kOnChip) {
+    // The second pass runs after the first one: both share the lines.
+    pixels += width * std::max(in_row(kPathNW | kPathN | kPathNE), in_row(kSouthernPaths));
+  } else {
+    // What comes back for the pixel ahead waits until it is straight above, and then behind.
+    pixels += std::max(in_row(kPathN) + 2 * in_row(kPathNW), in_row(kPathS) + 2 * in_row(kPathSE));
+  }
+  std::int64_t bits = path_pixel_bits() * pixels;
   bits += std::int64_t{code_bits_} * config_.range().last();
   if (config_.paths & kPathE) {
     bits += width * count * (bits_for(largest_cost()) + cost_bits());
@@ -199,12 +211,18 @@ std::int64_t Matching::storage_bits() const {
   return bits;
 }
 
-std::int64_t Matching::external_storage_bits() const {
-  if (one_pass()) return 0;
-  const int first_paths = path_count(config_.paths & ~kSouthernPaths);
-  const std::int64_t pixels = std::int64_t{width_} * height_;
-  const int sum_bits = first_paths == 0 ? 0 : bits_for(first_paths * (largest_cost() + kMaxPenalty));
-  return pixels * (std::int64_t{config_.range().count} * sum_bits + 2 * code_bits_);
+MatchingStore Matching::store() const {
+  MatchingStore store;
+  if (config_.path_storage == PathStorage::kMemory) {
+    store.first_pass_row = path_pixel_bits() * path_count(config_.paths & (kPathNW | kPathN | kPathNE));
+    store.second_pass_row = path_pixel_bits() * path_count(config_.paths & kSouthernPaths);
+  }
+  if (!one_pass()) {
+    const int first_paths = path_count(config_.paths & ~kSouthernPaths);
+    const int sum_bits = first_paths == 0 ? 0 : bits_for(first_paths * (largest_cost() + kMaxPenalty));
+    store.frame = std::int64_t{config_.range().count} * sum_bits + 2 * code_bits_;
+  }
+  return store;
 }
 
 }  // namespace parallax

@@ -45,6 +45,13 @@ enum class PathStart {
                ///< E: none
 };
 
+/// Where the path costs of the previous row lie, which the northern paths need, and in a second pass the
+/// southern ones.
+enum class PathStorage {
+  kOnChip,
+  kMemory,  ///< in external memory, written and read back row by row
+};
+
 struct MatchingConfig {
   int parallelism = 32;  ///< p, comparisons per iteration, 1..256; S (paper)
   int iterations = 4;  ///< n_i per pixel, 1..256; 4 for 128 disparities, 8 for 256 (D); offset + range <= 256
@@ -59,12 +66,20 @@ struct MatchingConfig {
   /// needs the minimum over all disparities; 1..1000. Counts where it is more than the interval. Of the
   /// stage's time, not of its values. 1 (D): the published rates leave room for no more.
   int recurrence_latency = 1;
+  PathStorage path_storage = PathStorage::kOnChip;  ///< of the stage's time, not of its values; own choice
   OutsideCost outside_cost =
       OutsideCost::kReplicate;              ///< own choice: fewest false matches at the left border
   PathStart path_start = PathStart::kCost;  ///< own choice
 
   DisparityRange range() const { return {disparity_offset, iterations * parallelism}; }
   void validate() const;
+};
+
+/// What the matcher keeps in external memory, in bits a pixel; 0: nothing.
+struct MatchingStore {
+  std::int64_t first_pass_row = 0;   ///< path costs with their minima, for the row below
+  std::int64_t second_pass_row = 0;  ///< the same of the southern paths, for the row above
+  std::int64_t frame = 0;  ///< sums of the first pass and both images' codes, from one pass to the other
 };
 
 /// Semi-global matching: census codes of a rectified pair to summed path costs.
@@ -79,8 +94,8 @@ struct MatchingConfig {
 /// L_r <= cost_weight * code_bits + P2 <= 507, so that the sum of eight paths fits in 12 bits.
 ///
 /// Without southern paths nothing larger than some rows is held, from the first row on. With them the
-/// hardware writes the sums of the first pass (`external_storage_bits`) and both images' codes to memory and
-/// reads them back bottom up; this kernel holds the same frame store, and emits the whole frame, top to
+/// hardware writes the sums of the first pass and both images' codes to memory (`store`) and reads them back
+/// bottom up; this kernel holds the same frame store, and emits the whole frame, top to
 /// bottom, with the last row.
 class Matching {
  public:
@@ -97,16 +112,17 @@ class Matching {
   int look_ahead_rows() const;
   int look_ahead_pixels() const;
 
-  /// Path costs of one row per northern path, with their minima; of one pixel for the horizontal path; the
-  /// window of right codes; for path E, a row of costs and of sums.
+  /// Path costs of one row per northern path, with their minima (of at most two pixels where rows lie in
+  /// external memory); of one pixel for the horizontal path; the window of right codes; for path E, a row of
+  /// costs and of sums.
   std::int64_t storage_bits() const;
 
-  /// Frame store in external memory that southern paths need: sums of the first pass and both images' codes.
-  std::int64_t external_storage_bits() const;
+  MatchingStore store() const;
 
  private:
   struct State;
 
+  std::int64_t path_pixel_bits() const;  // of one path
   int largest_cost() const { return config_.cost_weight * code_bits_; }
   bool one_pass() const { return (config_.paths & kSouthernPaths) == 0; }
 

@@ -22,13 +22,31 @@ MatchingStage::MatchingStage(const sc_core::sc_module_name& name, const Matching
                           [this, length](const Cost* costs) { out_costs.send_row(costs, length); });
           }),
       look_ahead_(look_ahead_pixels(context, kernel_->look_ahead_rows(), kernel_->look_ahead_pixels())),
-      storage_(kernel_->storage_bits()) {
+      storage_(kernel_->storage_bits()),
+      store_(kernel_->store()) {
   const auto width = static_cast<std::size_t>(context.width);
   RasterSchedule raster;
   raster.beats = static_cast<std::uint32_t>(config.iterations);
   raster.last_interval = static_cast<std::uint32_t>(config.recurrence_latency);
   raster.reads.first = 0b11;
   raster.writes.every = 0b1;
+  PortMask in = 0b100;  // the next ones to be declared
+  PortMask out = 0b10;
+  if (store_.first_pass_row + store_.second_pass_row > 0) {
+    in_rows = std::make_unique<StreamIn<std::uint8_t>>("in_rows");
+    out_rows = std::make_unique<StreamOut<std::uint8_t>>("out_rows");
+    const RasterSchedule::RowStore rows{{0, in, 0}, {0, 0, out}};
+    if (store_.first_pass_row > 0) raster.first_pass = rows;
+    if (store_.second_pass_row > 0) raster.second_pass = rows;
+    in = static_cast<PortMask>(in << 1);
+    out = static_cast<PortMask>(out << 1);
+  }
+  if (store_.frame > 0) {
+    in_frame = std::make_unique<StreamIn<std::uint8_t>>("in_frame");
+    out_frame = std::make_unique<StreamOut<std::uint8_t>>("out_frame");
+    raster.reads_late.first = in;
+    raster.writes_early.last = out;
+  }
   raster.look_ahead = look_ahead_;
   raster.timing = timing;
   set_schedule(make_schedule(context, raster));

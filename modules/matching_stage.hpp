@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+#include <memory>
 #include <optional>
 #include <systemc>
 
@@ -16,11 +18,19 @@ namespace parallax {
 /// iteration (matching.hpp; paper, "Stereo Matching"). The interval is per iteration; a pixel takes
 /// max(n_i * interval, (n_i - 1) * interval + recurrence_latency) cycles. With southern paths the
 /// whole frame goes in before the first costs come out.
+///
+/// What the matcher keeps outside (MatchingStore) leaves and comes back through ports of its own, a token a
+/// pixel: rows out with a pixel's last iteration, and back with the first one of the pixel below; the frame
+/// out in the first pass, and back, last pixel first, in the second. These tokens have dates and no values:
+/// the kernel holds the values.
 class MatchingStage final : public Stage {
  public:
   StreamIn<CensusCode> in_left{"in_left"};
   StreamIn<CensusCode> in_right{"in_right"};
   StreamOut<Cost> out_costs{"out_costs"};  ///< a token is p costs
+  /// There if something is kept; declared in this order.
+  std::unique_ptr<StreamIn<std::uint8_t>> in_rows, in_frame;
+  std::unique_ptr<StreamOut<std::uint8_t>> out_rows, out_frame;
 
   MatchingStage(const sc_core::sc_module_name& name, const MatchingConfig& config, int code_bits,
                 const StageTiming& timing, const StageContext& context);
@@ -30,6 +40,7 @@ class MatchingStage final : public Stage {
   void configure(const std::optional<MatchingConfig>& config) { changes_.push(config); }
   std::uint64_t look_ahead() const { return look_ahead_; }
   Bits storage() const { return storage_; }
+  const MatchingStore& store() const { return store_; }
 
  private:
   std::optional<Matching> kernel_;
@@ -37,6 +48,7 @@ class MatchingStage final : public Stage {
   RowJoin<CensusCode, CensusCode> codes_;
   std::uint64_t look_ahead_;
   Bits storage_;
+  MatchingStore store_;
 };
 
 }  // namespace parallax

@@ -14,19 +14,45 @@ PortMask at_beat(const PixelPorts& ports, std::uint32_t beat, std::uint32_t beat
   return static_cast<PortMask>(mask);
 }
 
-// The firings of one pixel that is read, written, or both; equal neighbours are one phase.
-std::vector<Phase> pixel(const RasterSchedule& raster, bool reads, bool writes) {
-  const bool all_beats = reads || raster.writes.every != 0 || raster.reads_late.every != 0;
+PixelPorts both(const PixelPorts& a, const PixelPorts& b) {
+  const auto sum = [](PortMask one, PortMask other) { return static_cast<PortMask>(one | other); };
+  return {sum(a.every, b.every), sum(a.first, b.first), sum(a.last, b.last)};
+}
+
+bool any(const RasterSchedule::RowStore& store) {
+  const auto used = [](const PixelPorts& ports) { return (ports.every | ports.first | ports.last) != 0; };
+  return used(store.reads) || used(store.writes);
+}
+
+// Pixels of one kind.
+struct Kind {
+  bool reads = false;
+  bool writes = false;
+  const RasterSchedule::RowStore* store = nullptr;
+  bool first_row = false;
+  bool last_row = false;
+};
+
+// The firings of one such pixel; equal neighbours are one phase.
+std::vector<Phase> pixel(const RasterSchedule& raster, const Kind& kind) {
+  PixelPorts consume;
+  PixelPorts produce;
+  if (kind.reads) {
+    consume = both(consume, raster.reads);
+    produce = both(produce, raster.writes_early);
+  }
+  if (kind.writes) {
+    consume = both(consume, raster.reads_late);
+    produce = both(produce, raster.writes);
+  }
+  if (kind.store != nullptr && !kind.first_row) consume = both(consume, kind.store->reads);
+  if (kind.store != nullptr && !kind.last_row) produce = both(produce, kind.store->writes);
+  const bool all_beats = kind.reads || raster.writes.every != 0 || raster.reads_late.every != 0;
   const std::uint32_t beats = all_beats ? raster.beats : 1;
   std::vector<Phase> phases;
   for (std::uint32_t beat = 0; beat < beats; ++beat) {
-    Phase phase{1, raster.timing.interval, 0, 0};
+    Phase phase{1, raster.timing.interval, at_beat(consume, beat, beats), at_beat(produce, beat, beats)};
     if (beat + 1 == beats) phase.interval = std::max(phase.interval, raster.last_interval);
-    if (reads) phase.consume = at_beat(raster.reads, beat, beats);
-    if (writes) {
-      phase.consume = static_cast<PortMask>(phase.consume | at_beat(raster.reads_late, beat, beats));
-      phase.produce = at_beat(raster.writes, beat, beats);
-    }
     if (!phases.empty() && phases.back().consume == phase.consume && phases.back().produce == phase.produce &&
         phases.back().interval == phase.interval) {
       ++phases.back().count;
@@ -48,26 +74,29 @@ std::uint64_t look_ahead_pixels(const StageContext& context, int rows, int pixel
 Schedule make_schedule(const StageContext& context, const RasterSchedule& raster) {
   const std::uint64_t frame = context.pixels();
   const auto width = static_cast<std::uint64_t>(context.width);
-  const std::vector<Phase> fill = pixel(raster, true, false);
-  const std::vector<Phase> both = pixel(raster, true, true);
   Schedule schedule;
-  std::uint64_t done = 0;
-  const auto read_until = [&](std::uint64_t end, const std::vector<Phase>& phases) {
-    if (raster.timing.row_overhead == 0) {
-      schedule.repeat(end - done, phases);
-      done = end;
-      return;
-    }
+  // Pixels `done` to `end` of the frame, cut where the kind of pixel changes or a row ends with an overhead.
+  const auto go_through = [&](std::uint64_t done, std::uint64_t end, Kind kind,
+                              const RasterSchedule::RowStore& store, std::uint32_t row_overhead) {
+    if (any(store)) kind.store = &store;
     while (done < end) {
-      const std::uint64_t stop = std::min(end, (done / width + 1) * width);
-      schedule.repeat(stop - done, phases);
-      if (stop % width == 0) schedule.run({1, raster.timing.row_overhead, 0, 0});
+      kind.first_row = done < width;
+      kind.last_row = done >= frame - width;
+      std::uint64_t stop = end;
+      if (row_overhead > 0) {
+        stop = std::min(end, (done / width + 1) * width);
+      } else if (kind.store != nullptr && !kind.last_row) {
+        stop = std::min(end, kind.first_row ? width : frame - width);
+      }
+      schedule.repeat(stop - done, pixel(raster, kind));
+      if (row_overhead > 0 && stop % width == 0) schedule.run({1, row_overhead, 0, 0});
       done = stop;
     }
   };
-  read_until(raster.look_ahead, fill);
-  read_until(frame, both);
-  schedule.repeat(raster.look_ahead, pixel(raster, false, true));
+  const std::uint32_t overhead = raster.timing.row_overhead;
+  go_through(0, raster.look_ahead, {true, false}, raster.first_pass, overhead);
+  go_through(raster.look_ahead, frame, {true, true}, raster.first_pass, overhead);
+  go_through(frame - raster.look_ahead, frame, {false, true}, raster.second_pass, 0);
   if (raster.timing.frame_overhead > 0) schedule.run({1, raster.timing.frame_overhead, 0, 0});
   return schedule;
 }

@@ -36,6 +36,16 @@ struct RasterSchedule {
   PixelPorts reads;
   PixelPorts reads_late;  ///< inputs that go with the pixel written, not with the pixel read
   PixelPorts writes;
+  PixelPorts writes_early;  ///< outputs that go with the pixel read, not with the pixel written
+  /// A store outside that hands each row's tokens back with the row after: written in all rows but the last,
+  /// read in all but the first. The pixels are those read, and where the look-ahead is the frame, so that a
+  /// second pass follows, then those written.
+  struct RowStore {
+    PixelPorts reads;
+    PixelPorts writes;
+  };
+  RowStore first_pass;
+  RowStore second_pass;
   std::uint32_t beats = 1;
   std::uint32_t last_interval = 1;  ///< cycles after a pixel's last firing, if more than timing.interval
   std::uint64_t look_ahead = 0;     ///< pixels, at most the frame's

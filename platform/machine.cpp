@@ -51,19 +51,14 @@ std::size_t steady_first(const MachineConfig& config, std::int64_t frames) {
   return static_cast<std::size_t>(std::max<std::int64_t>(0, std::min(warm_up_frames(config), frames - 2)));
 }
 
-const std::vector<const char*>& Machine::port_names() {
-  static const std::vector<const char*> names{"camera_left", "camera_right", "left", "right",
-                                              "map",         "output",       "link"};
-  return names;
-}
-
 Machine::Machine(const sc_core::sc_module_name& name, const MachineConfig& config, const MachineInput& input)
     : sc_module(name),
       config_(config),
       input_(input),
       tiles_(plan_tiles(config.tiles, config.matching.range(), input.width)),
       tiled_map_(tiles_.tiles.size() > 1 ? cut_map(*input.map, tiles_) : EncodedMap{}),
-      memory_map_(lay_out_memory(config, input.width, input.height, map())),
+      memory_map_(lay_out_memory(config, input.width, input.height, map(),
+                                 matcher_store(config, tiles_.width, input.height))),
       core_clock_("core", Hertz(config.clocks.core_hz)),
       memory_clock_("memory", Hertz(config.clocks.memory_hz)),
       camera_clock_("camera", Hertz(config.clocks.camera_hz)),
@@ -83,6 +78,7 @@ Machine::Machine(const sc_core::sc_module_name& name, const MachineConfig& confi
                     [this](std::int64_t frame) { frame_in_memory(frame); }}),
       core_("core", config_, input_, {tiles_, map()}, core_clock_, dataflow_),
       transmission_("transmission", config_, link_clock_, dataflow_),
+      ports_(make_ports()),
       facts_(core_facts()),
       control_(
           "control", config_, facts_,
@@ -93,12 +89,11 @@ Machine::Machine(const sc_core::sc_module_name& name, const MachineConfig& confi
   times_.keep(kept);
   activities_.keep(kept);
   core_.pipeline().keep_frames(kept);
-  const std::vector<BusMaster*> all = masters();
-  for (std::size_t port = 0; port < all.size(); ++port) {
+  for (const Port& port : ports_) {
     if (memory_) {
-      all[port]->socket.bind(memory_->socket);
+      port.master->socket.bind(memory_->socket);
     } else {
-      input.bind_memory(all[port]->socket, port_names()[port]);
+      input.bind_memory(port.master->socket, port.name);
     }
   }
   driver_.socket.bind(control_.bank.socket);
@@ -151,8 +146,8 @@ void Machine::start_core() {
   parameters_written_ = true;
   const MemoryMap::FrameBuffer& buffer = acquisition_.buffer(frame);
   offering_ = true;
-  const bool taken =
-      driver_.start({buffer.left, buffer.right, memory_map_.map, output_buffer(frame), {}}, facts_);
+  const bool taken = driver_.start(
+      {buffer.left, buffer.right, memory_map_.map, output_buffer(frame), memory_map_.buffer, {}}, facts_);
   offering_ = false;
   if (!taken) {
     ++rejected_starts_;
@@ -169,7 +164,7 @@ void Machine::core_started(const FrameCommand& command) {
   ++in_core_;
   const std::int64_t frame = started_++;
   core_.start({command.left, command.right, command.map, values_[static_cast<std::size_t>(frame)],
-               command.parameters, command.output, [this] { acquisition_.release(); },
+               command.parameters, command.output, command.buffer, [this] { acquisition_.release(); },
                [this, frame] { results_in_memory(frame); }});
 }
 
@@ -182,6 +177,7 @@ CoreFacts Machine::core_facts() {
   facts.map_bytes = map().bytes.size();
   facts.output_bytes = OutputPacking::row_bytes(input_.width, config_.link.output_left()) *
                        static_cast<std::uint64_t>(input_.height);
+  facts.buffer_bytes = core_.pipeline().store().bytes();
   facts.memory_bytes = static_cast<std::uint64_t>(config_.memory.size_bytes);
   const auto port = [](BusMaster& master, const DmaPortConfig& config) {
     return CoreFacts::Port{&master, config.outstanding};
@@ -190,6 +186,9 @@ CoreFacts Machine::core_facts() {
   facts.right = port(core_.right_master(), config_.dma.right);
   facts.map = port(core_.map_master(), config_.dma.map);
   facts.output = port(core_.output_master(), config_.dma.output);
+  for (const Port& p : ports_) {
+    if (p.engine == "buffer") facts.buffer.push_back({p.master, p.places});
+  }
   return facts;
 }
 
@@ -269,25 +268,27 @@ void Machine::deliver(std::int64_t frame, const std::vector<std::uint8_t>& bytes
   if (++delivered_ == input_.frames) sc_core::sc_stop();
 }
 
-std::vector<BusMaster*> Machine::masters() {
-  return {&acquisition_.left_master(), &acquisition_.right_master(), &core_.left_master(),
-          &core_.right_master(),       &core_.map_master(),          &core_.output_master(),
-          &transmission_.master()};
-}
-
-std::vector<const BusMaster*> Machine::ports() const {
-  const std::vector<BusMaster*> all = const_cast<Machine&>(*this).masters();
-  return {all.begin(), all.end()};
-}
-
-std::vector<std::uint32_t> Machine::dma_places() const {
+std::vector<Machine::Port> Machine::make_ports() {
   // A reading engine has no more requests under way than its FIFO can take answers.
   const auto reading = [](const DmaPortConfig& port) {
     return std::min(port.outstanding, engine_config(port).fifo_bursts);
   };
   const DmaConfig& dma = config_.dma;
-  return {dma.camera.outstanding, dma.camera.outstanding, reading(dma.left), reading(dma.right),
-          reading(dma.map),       dma.output.outstanding, reading(dma.link)};
+  std::vector<Port> ports{{"camera_left", "camera", &acquisition_.left_master(), dma.camera.outstanding},
+                          {"camera_right", "camera", &acquisition_.right_master(), dma.camera.outstanding},
+                          {"left", "left", &core_.left_master(), reading(dma.left)},
+                          {"right", "right", &core_.right_master(), reading(dma.right)},
+                          {"map", "map", &core_.map_master(), reading(dma.map)},
+                          {"output", "output", &core_.output_master(), dma.output.outstanding},
+                          {"link", "link", &transmission_.master(), reading(dma.link)}};
+  const auto add = [&](const char* name, BusMaster* master, std::uint32_t places) {
+    if (master != nullptr) ports.push_back({name, "buffer", master, places});
+  };
+  add("buffer_row_write", core_.rows_write_master(), dma.buffer.outstanding);
+  add("buffer_row_read", core_.rows_read_master(), reading(dma.buffer));
+  add("buffer_frame_write", core_.frame_write_master(), dma.buffer.outstanding);
+  add("buffer_frame_read", core_.frame_read_master(), reading(dma.buffer));
+  return ports;
 }
 
 sc_core::sc_time Machine::core_taken() const {
@@ -298,10 +299,10 @@ sc_core::sc_time Machine::core_taken() const {
 Activity Machine::activity() {
   Activity activity;
   activity.time = sc_core::sc_time_stamp();
-  const std::vector<BusMaster*> engines = masters();
-  for (std::size_t port = 0; port < engines.size(); ++port) {
-    activity.ports.push_back({engines[port]->statistics().bytes,
-                              memory_ ? memory_->bus_taken(port) : Cycles(0), engines[port]->occupied()});
+  for (std::size_t port = 0; port < ports_.size(); ++port) {
+    const BusMaster& master = *ports_[port].master;
+    activity.ports.push_back(
+        {master.statistics().bytes, memory_ ? memory_->bus_taken(port) : Cycles(0), master.occupied()});
   }
   if (memory_) {
     activity.memory = memory_->at_work();

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <deque>
 #include <memory>
+#include <string>
 #include <systemc>
 #include <vector>
 
@@ -35,7 +36,9 @@ std::size_t steady_first(const MachineConfig& config, std::int64_t frames);
 /// next. Several frames are in flight: one is read out while another is processed and a third
 /// is sent.
 ///
-/// Ports of the memory, in the order of binding: camera_left, camera_right, left, right, map, output, link.
+/// Ports of the memory, in the order of binding: camera_left, camera_right, left, right, map, output, link;
+/// then, for a matcher that keeps something in memory, buffer_row_write and buffer_row_read, and
+/// buffer_frame_write and buffer_frame_read.
 class Machine final : public sc_core::sc_module {
  public:
   Machine(const sc_core::sc_module_name& name, const MachineConfig& config, const MachineInput& input);
@@ -52,8 +55,6 @@ class Machine final : public sc_core::sc_module {
   const KeptRecords<Activity>& activities() const { return activities_; }
   /// Of all frames delivered.
   const FrameLatencies& latencies() const { return latencies_; }
-  /// Requests that the DMA engine of each memory port can have under way.
-  std::vector<std::uint32_t> dma_places() const;
   const Pipeline& pipeline() const { return core_.pipeline(); }
   const Dataflow& dataflow() const { return dataflow_; }
   /// None when the run brought another memory along.
@@ -63,8 +64,15 @@ class Machine final : public sc_core::sc_module {
   RegisterBank& registers() { return control_.bank; }
   /// Starts that the core has refused (an initiator has switched it off, say); software tries again.
   std::int64_t rejected_starts() const { return rejected_starts_; }
-  /// The DMA engines' side of each memory port, in their order.
-  std::vector<const BusMaster*> ports() const;
+  /// The DMA engines' side of a memory port.
+  struct Port {
+    std::string name;
+    std::string engine;  ///< its keys are dma.<engine>.*
+    BusMaster* master;
+    std::uint32_t places;  ///< requests that it can have under way
+  };
+  /// In the order of the memory's statistics.
+  const std::vector<Port>& ports() const { return ports_; }
   const TilePlan& tiles() const { return tiles_; }
   /// The rectification map as it lies in memory: cut for the tiles.
   const EncodedMap& map() const { return tiles_.tiles.size() > 1 ? tiled_map_ : *input_.map; }
@@ -74,8 +82,6 @@ class Machine final : public sc_core::sc_module {
   const ClockDomain& core_clock() const { return core_clock_; }
   const ClockDomain& camera_clock() const { return camera_clock_; }
   const ClockDomain& link_clock() const { return link_clock_; }
-  /// Names of the memory's ports, in the order of its statistics.
-  static const std::vector<const char*>& port_names();
 
  private:
   void frame_in_memory(std::int64_t frame);
@@ -88,7 +94,7 @@ class Machine final : public sc_core::sc_module {
   void deliver(std::int64_t frame, const std::vector<std::uint8_t>& bytes);
   std::uint64_t output_buffer(std::int64_t frame) const;
   void start_of_simulation() override;
-  std::vector<BusMaster*> masters();
+  std::vector<Port> make_ports();
   Activity activity();
   sc_core::sc_time core_taken() const;
 
@@ -106,6 +112,7 @@ class Machine final : public sc_core::sc_module {
   Acquisition acquisition_;
   StereoCore core_;
   Transmission transmission_;
+  const std::vector<Port> ports_;
   const CoreFacts facts_;
   ControlBlocks control_;
   CoreDriver driver_;

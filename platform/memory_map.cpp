@@ -71,7 +71,8 @@ class Layout {
 
 }  // namespace
 
-MemoryMap lay_out_memory(const MachineConfig& config, int width, int height, const EncodedMap& map) {
+MemoryMap lay_out_memory(const MachineConfig& config, int width, int height, const EncodedMap& map,
+                         const MatcherStore& store) {
   const std::uint64_t image =
       bytes_of(config.camera.format, static_cast<std::uint64_t>(width)) * static_cast<std::uint64_t>(height);
   const std::uint64_t result =
@@ -84,6 +85,9 @@ MemoryMap lay_out_memory(const MachineConfig& config, int width, int height, con
   for (std::size_t i = 0; i < left.size(); ++i) result_map.frames.push_back({left[i], right[i]});
   result_map.map = layout.place("map", places.map, 1, map.bytes.size()).front();
   result_map.outputs = layout.place("output", places.output, config.link.output_buffers, result);
+  if (store.bytes() > 0) {
+    result_map.buffer = layout.place("buffer", places.buffer, 1, store.bytes()).front();
+  }
   layout.check(static_cast<std::uint64_t>(config.memory.size_bytes));
   return result_map;
 }

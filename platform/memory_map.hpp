@@ -6,6 +6,7 @@
 
 #include "modules/map_codec.hpp"
 #include "platform/config/machine_config.hpp"
+#include "platform/matcher_store.hpp"
 
 namespace parallax {
 
@@ -18,9 +19,11 @@ struct MemoryMap {
   std::vector<FrameBuffer> frames;     ///< rows of pixels in the cameras' format
   std::uint64_t map = 0;               ///< the compressed rectification map
   std::vector<std::uint64_t> outputs;  ///< packed results (modules/output_packing.hpp)
+  std::uint64_t buffer = 0;            ///< MatcherStore, if anything is kept
 };
 
 /// Throws UserError when a buffer does not fit into the memory, or two overlap, with the arithmetic.
-MemoryMap lay_out_memory(const MachineConfig& config, int width, int height, const EncodedMap& map);
+MemoryMap lay_out_memory(const MachineConfig& config, int width, int height, const EncodedMap& map,
+                         const MatcherStore& store);
 
 }  // namespace parallax

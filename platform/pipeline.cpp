@@ -54,6 +54,17 @@ std::int64_t cost_bits(const MachineConfig& config) {
 
 }  // namespace
 
+Pipeline::Store::Store(const std::string& what, const StoreLayout& layout, bool backwards,
+                       const StageContext& context, const FifoConfig& fifo)
+    : pack(("pack_" + what).c_str(), layout, context.clock, context.dataflow),
+      unpack(("unpack_" + what).c_str(), layout, backwards, context.clock, context.dataflow),
+      kept(("kept_" + what + "_bursts").c_str(), context.dataflow, context.clock, context.clock, fifo),
+      returned(("returned_" + what + "_bursts").c_str(), context.dataflow, context.clock, context.clock,
+               fifo) {
+  pack.out_bursts(kept);
+  unpack.in_bursts(returned);
+}
+
 template <class T>
 Stream<T>& Pipeline::stream(const char* name, std::int64_t width_bits, std::uint64_t needed_depth) {
   FifoConfig fifo;
@@ -73,6 +84,7 @@ Pipeline::Pipeline(const sc_core::sc_module_name& name, const MachineConfig& con
       config_(config),
       context_(context),
       tiles_(tiles.tiles.size()),
+      store_(matcher_store(config, context.width, context.height)),
       parameters_(algorithm_parameters(config)),
       unpack_left_("unpack_left", image_bursts(tiles, context, config.camera.format, config.dma.left),
                    context.clock, context.dataflow),
@@ -198,6 +210,30 @@ Pipeline::Pipeline(const sc_core::sc_module_name& name, const MachineConfig& con
   connect(noise_reduction_.out_disparity, output_packing_.in_disparity,
           stream<Disparity>("smoothed", kDisparityBits));
   output_packing_.out_bursts(output_bursts_);
+  const FifoConfig buffer = engine_config(config.dma.buffer).fifo();
+  if (store_.keeps_rows()) {
+    rows_ = std::make_unique<Store>("rows", store_.rows, false, context, buffer);
+    const auto bits = static_cast<std::int64_t>(
+        8 * std::max(store_.rows.passes[0].record_bytes, store_.rows.passes[1].record_bytes));
+    connect(*matching_.out_rows, rows_->pack.in_records, stream<std::uint8_t>("kept_rows", bits));
+    connect(rows_->unpack.out_records, *matching_.in_rows, stream<std::uint8_t>("returned_rows", bits));
+  }
+  if (store_.keeps_frame()) {
+    frame_ = std::make_unique<Store>("frame", store_.frame, true, context, buffer);
+    const auto bits = static_cast<std::int64_t>(8 * store_.frame.passes[0].record_bytes);
+    connect(*matching_.out_frame, frame_->pack.in_records, stream<std::uint8_t>("kept_frame", bits));
+    connect(frame_->unpack.out_records, *matching_.in_frame, stream<std::uint8_t>("returned_frame", bits));
+  }
+}
+
+void Pipeline::bind_rows(StreamIn<std::uint8_t>& kept, StreamOut<std::uint8_t>& returned) {
+  kept(rows_->kept);
+  returned(rows_->returned);
+}
+
+void Pipeline::bind_frame(StreamIn<std::uint8_t>& kept, StreamOut<std::uint8_t>& returned) {
+  kept(frame_->kept);
+  returned(frame_->returned);
 }
 
 void Pipeline::bind(StreamOut<std::uint8_t>& left, StreamOut<std::uint8_t>& right,
@@ -236,21 +272,28 @@ void Pipeline::keep_frames(std::size_t frames) {
 
 std::vector<StageInfo> Pipeline::stages() const {
   // The map, and the results, of all tiles are one frame each.
-  return {{&unpack_left_, Bits(config_.dma.left.burst_bytes * 8), tiles_},
-          {&unpack_right_, Bits(config_.dma.right.burst_bytes * 8), tiles_},
-          {&unpack_map_, Bits(config_.dma.map.burst_bytes * 8)},
-          {&map_decoder_, map_decoder_.storage()},
-          {&rectification_, rectification_.storage(), tiles_},
-          {&census_, census_.storage(), tiles_},
-          {&matching_, matching_.storage(), tiles_},
-          {&subpixel_, subpixel_.storage(), tiles_},
-          {&uniqueness_, uniqueness_.storage(), tiles_},
-          {&consistency_, consistency_.storage(), tiles_},
-          {&texture_, texture_.storage(), tiles_},
-          {&speckle_, speckle_.storage(), tiles_},
-          {&gap_interpolation_, gap_interpolation_.storage(), tiles_},
-          last_filter(),
-          {&output_packing_, output_packing_.storage()}};
+  std::vector<StageInfo> all{{&unpack_left_, Bits(config_.dma.left.burst_bytes * 8), tiles_},
+                             {&unpack_right_, Bits(config_.dma.right.burst_bytes * 8), tiles_},
+                             {&unpack_map_, Bits(config_.dma.map.burst_bytes * 8)},
+                             {&map_decoder_, map_decoder_.storage()},
+                             {&rectification_, rectification_.storage(), tiles_},
+                             {&census_, census_.storage(), tiles_},
+                             {&matching_, matching_.storage(), tiles_},
+                             {&subpixel_, subpixel_.storage(), tiles_},
+                             {&uniqueness_, uniqueness_.storage(), tiles_},
+                             {&consistency_, consistency_.storage(), tiles_},
+                             {&texture_, texture_.storage(), tiles_},
+                             {&speckle_, speckle_.storage(), tiles_},
+                             {&gap_interpolation_, gap_interpolation_.storage(), tiles_},
+                             last_filter(),
+                             {&output_packing_, output_packing_.storage()}};
+  for (const Store* store : {rows_.get(), frame_.get()}) {
+    if (store == nullptr) continue;
+    const Bits burst(config_.dma.buffer.burst_bytes * 8);
+    all.push_back({&store->pack, burst, tiles_});
+    all.push_back({&store->unpack, burst, tiles_});
+  }
+  return all;
 }
 
 }  // namespace parallax

@@ -3,6 +3,7 @@
 
 #include <deque>
 #include <memory>
+#include <string>
 #include <systemc>
 #include <vector>
 
@@ -17,11 +18,13 @@
 #include "modules/pixel_unpack_stage.hpp"
 #include "modules/rectification_stage.hpp"
 #include "modules/speckle_stage.hpp"
+#include "modules/store_stages.hpp"
 #include "modules/subpixel_stage.hpp"
 #include "modules/texture_stage.hpp"
 #include "modules/uniqueness_stage.hpp"
 #include "platform/algorithm_parameters.hpp"
 #include "platform/config/machine_config.hpp"
+#include "platform/matcher_store.hpp"
 #include "platform/tile_plan.hpp"
 #include "tlm/dma.hpp"
 #include "tlm/unpacker.hpp"
@@ -52,6 +55,10 @@ class Pipeline final : public sc_core::sc_module {
   /// the results.
   void bind(StreamOut<std::uint8_t>& left, StreamOut<std::uint8_t>& right, StreamOut<std::uint8_t>& map,
             StreamIn<std::uint8_t>& output);
+  /// The same for what the matcher keeps in memory: the ports that take it and bring it back.
+  void bind_rows(StreamIn<std::uint8_t>& kept, StreamOut<std::uint8_t>& returned);
+  void bind_frame(StreamIn<std::uint8_t>& kept, StreamOut<std::uint8_t>& returned);
+  const MatcherStore& store() const { return store_; }
 
   /// Of every stage, the dates of the first and the last `frames` frames are kept; see Stage::keep_frames().
   void keep_frames(std::size_t frames);
@@ -66,12 +73,22 @@ class Pipeline final : public sc_core::sc_module {
   std::vector<StageInfo> stages() const;
 
  private:
+  struct Store {  // between the matcher and a pair of memory ports
+    Store(const std::string& what, const StoreLayout& layout, bool backwards, const StageContext& context,
+          const FifoConfig& fifo);
+    StorePackStage pack;
+    StoreUnpackStage unpack;
+    Stream<std::uint8_t> kept;
+    Stream<std::uint8_t> returned;
+  };
+
   template <class T>
   Stream<T>& stream(const char* name, std::int64_t width_bits, std::uint64_t needed_depth = 0);
 
   const MachineConfig& config_;
   const StageContext context_;
   const std::size_t tiles_;
+  const MatcherStore store_;
   AlgorithmParameters parameters_;  // of the last frame that was told
 
   PixelUnpackStage unpack_left_;
@@ -94,6 +111,8 @@ class Pipeline final : public sc_core::sc_module {
   Stream<std::uint8_t> right_bursts_;
   Stream<std::uint8_t> map_bursts_;
   Stream<std::uint8_t> output_bursts_;
+  std::unique_ptr<Store> rows_;   // if it keeps rows
+  std::unique_ptr<Store> frame_;  // if it keeps a frame
   std::vector<std::unique_ptr<StreamBase>> streams_;
 };
 

@@ -22,6 +22,7 @@ Relaxation clock(const std::string& name, std::int64_t hertz) {
 std::vector<std::string> deeper_fifos(const nlohmann::ordered_json& metrics) {
   std::vector<std::string> assignments;
   for (const std::string& name : pipeline_stream_names()) {
+    if (!metrics.at("streams").contains(name)) continue;  // a machine without it
     const std::int64_t depth = metrics.at("streams").at(name).at("depth").at("value");
     assignments.push_back(fmt::format("streams.{}.depth={}", name,
                                       std::max(depth, std::min(kDeeper * depth + 1024, kDeepest))));
@@ -44,6 +45,7 @@ std::vector<std::string> longer_queues(const DmaConfig& dma) {
   add("map", dma.map);
   add("output", dma.output);
   add("link", dma.link);
+  add("buffer", dma.buffer);
   return assignments;
 }
 
@@ -86,6 +88,9 @@ std::vector<Relaxation> relaxations(const MachineConfig& config, const nlohmann:
     all.push_back({"matching_interval",
                    "one iteration a cycle, pixel after pixel",
                    {"matching.interval=1", "matching.recurrence_latency=1"}});
+  }
+  if (config.matching.path_storage == PathStorage::kMemory) {
+    all.push_back({"path_storage", "on chip", {"matching.path_storage=on_chip"}});
   }
   if (config.software.response_ns > 0 || !config.software.queue_frames) {
     all.push_back({"software",

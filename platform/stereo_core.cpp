@@ -37,6 +37,12 @@ void check_whole_bytes(PixelFormat format, int width, const TilePlan& tiles) {
 
 }  // namespace
 
+StereoCore::StorePorts::StorePorts(const std::string& what, const DmaPortConfig& config,
+                                   const ClockDomain& clock, Dataflow& dataflow)
+    : write(("dma_" + what + "_write").c_str(), engine_config(config), clock),
+      read(("dma_" + what + "_read").c_str(), engine_config(config), clock),
+      progress(std::make_shared<TransferProgress>(dataflow)) {}
+
 StereoCore::StereoCore(const sc_core::sc_module_name& name, const MachineConfig& config,
                        const MachineInput& input, const CoreMap& map, const ClockDomain& clock,
                        Dataflow& dataflow)
@@ -52,12 +58,21 @@ StereoCore::StereoCore(const sc_core::sc_module_name& name, const MachineConfig&
       pipeline_("pipeline", config, map.map, map.tiles, {clock, dataflow, map.tiles.width, input.height}) {
   check_whole_bytes(format_, input.width, map.tiles);
   pipeline_.bind(dma_left_.out_bursts, dma_right_.out_bursts, dma_map_.out_bursts, dma_output_.in_bursts);
+  if (pipeline_.store().keeps_rows()) {
+    rows_ = std::make_unique<StorePorts>("buffer_row", config.dma.buffer, clock, dataflow);
+    pipeline_.bind_rows(rows_->write.in_bursts, rows_->read.out_bursts);
+  }
+  if (pipeline_.store().keeps_frame()) {
+    frame_ = std::make_unique<StorePorts>("buffer_frame", config.dma.buffer, clock, dataflow);
+    pipeline_.bind_frame(frame_->write.in_bursts, frame_->read.out_bursts);
+  }
 }
 
 void StereoCore::start(const CoreJob& job) {
   if (job.values) pipeline_.configure(job.parameters);
   start_input(job);
   start_output(job);
+  start_store(job);
 }
 
 void StereoCore::start_input(const CoreJob& job) {
@@ -88,6 +103,43 @@ void StereoCore::start_output(const CoreJob& job) {
     if (map_.tiles.tiles.size() > 1) result.pitch = output_bytes(input_.width);
     if (&tile == &map_.tiles.tiles.back()) result.done = job.written;
     dma_output_.start(std::move(result));
+  }
+}
+
+// The engines of a store move the same bursts; what is written must be answered for before it is read.
+void StereoCore::start_store(const CoreJob& job) {
+  const MatcherStore& store = pipeline_.store();
+  const auto move = [](StorePorts& ports, std::uint64_t address, std::uint64_t rows, std::uint64_t row_bytes,
+                       Bytes burst, bool frame) {
+    DmaJob transfer;
+    transfer.address = address;
+    transfer.row_bytes.assign(rows, static_cast<std::uint32_t>(row_bytes));
+    transfer.values = false;
+    transfer.progress = ports.progress;
+    ports.write.start(transfer);
+    transfer.progress = nullptr;
+    transfer.behind = ports.progress;
+    const std::uint64_t before = ports.bursts;
+    ports.bursts += burst_count(rows * row_bytes, burst);
+    // The frame comes back last pixel first; a row from its begin.
+    transfer.downwards = frame;
+    transfer.needed = [before, burst, all = ports.bursts, frame](std::uint64_t last_byte) {
+      return frame ? all : before + burst_count(last_byte, burst);
+    };
+    ports.read.start(transfer);
+  };
+  for (std::size_t tile = 0; tile < map_.tiles.tiles.size(); ++tile) {
+    for (const StoreLayout::Pass& pass : store.rows.passes) {
+      if (pass.record_bytes == 0) continue;
+      for (std::uint64_t row = 0; row < pass.rows; ++row) {
+        move(*rows_, job.buffer, 1, store.rows.row_bytes(pass), store.rows.burst, false);
+      }
+    }
+    if (store.keeps_frame()) {
+      const StoreLayout::Pass& pass = store.frame.passes.front();
+      move(*frame_, job.buffer + store.frame_offset(), pass.rows, store.frame.row_bytes(pass),
+           store.frame.burst, true);
+    }
   }
 }
 

@@ -3,6 +3,8 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
+#include <string>
 #include <systemc>
 
 #include "platform/algorithm_parameters.hpp"
@@ -21,6 +23,7 @@ struct CoreJob {
   bool values = true;       ///< false: timing only
   AlgorithmParameters parameters{};
   std::uint64_t output = 0;       ///< address of the results
+  std::uint64_t buffer = 0;       ///< address of what the matcher keeps in memory (MatcherStore)
   std::function<void()> read;     ///< called when both images have been read
   std::function<void()> written;  ///< called when the results are in memory
 };
@@ -33,6 +36,8 @@ struct CoreMap {
 
 /// The stereo core: the pipeline with the DMA engines of its memory ports left, right, map and output. An
 /// image of several tiles is read, and its results are written, tile by tile, each row of a tile by itself.
+/// What the matcher keeps in memory has ports of its own: what has been written is read back as soon as it is
+/// answered for and there is room.
 class StereoCore final : public sc_core::sc_module {
  public:
   StereoCore(const sc_core::sc_module_name& name, const MachineConfig& config, const MachineInput& input,
@@ -47,10 +52,25 @@ class StereoCore final : public sc_core::sc_module {
   BusMaster& right_master() { return dma_right_.master; }
   BusMaster& map_master() { return dma_map_.master; }
   BusMaster& output_master() { return dma_output_.master; }
+  /// Of writing and reading back the matcher's rows and its frame, as far as it keeps them; else null.
+  BusMaster* rows_write_master() { return rows_ ? &rows_->write.master : nullptr; }
+  BusMaster* rows_read_master() { return rows_ ? &rows_->read.master : nullptr; }
+  BusMaster* frame_write_master() { return frame_ ? &frame_->write.master : nullptr; }
+  BusMaster* frame_read_master() { return frame_ ? &frame_->read.master : nullptr; }
 
  private:
   void start_input(const CoreJob& job);
   void start_output(const CoreJob& job);
+  void start_store(const CoreJob& job);
+
+  struct StorePorts {
+    StorePorts(const std::string& what, const DmaPortConfig& config, const ClockDomain& clock,
+               Dataflow& dataflow);
+    DmaWriter write;
+    DmaReader read;
+    std::shared_ptr<TransferProgress> progress;
+    std::uint64_t bursts = 0;  // started
+  };
 
   const MachineInput& input_;
   const CoreMap map_;
@@ -61,6 +81,8 @@ class StereoCore final : public sc_core::sc_module {
   DmaReader dma_map_;
   DmaWriter dma_output_;
   Pipeline pipeline_;
+  std::unique_ptr<StorePorts> rows_;   // if the matcher keeps rows
+  std::unique_ptr<StorePorts> frame_;  // if it keeps a frame
 };
 
 }  // namespace parallax

@@ -61,8 +61,9 @@ bool DmaEngine::have_burst() {
     free_ = std::max(free_, clock_.now());
     const std::uint64_t pieces = piece_ == 0 ? 0 : bytes_ / piece_;
     if (job_.begun && piece_ > 0) ends_.push_back({requested_ + 1, std::move(job_.begun), last_answer_});
-    ends_.push_back(
-        {requested_ + pieces * burst_count(piece_, Bytes(burst_)), std::move(job_.done), last_answer_});
+    const std::uint64_t last = requested_ + pieces * burst_count(piece_, Bytes(burst_));
+    ends_.push_back({last, std::move(job_.done), last_answer_});
+    if (job_.progress) told_.push_back({requested_ + 1, last, job_.progress});
     finish_jobs();  // it may be without bytes
     job_begins();
   }
@@ -70,7 +71,7 @@ bool DmaEngine::have_burst() {
 }
 
 ::tlm::tlm_generic_payload& DmaEngine::take_payload(::tlm::tlm_command command) {
-  return master.pool().take(command, piece_address_ + first_byte(), last_byte() - first_byte(), job_.values);
+  return master.pool().take(command, memory_address(), last_byte() - first_byte(), job_.values);
 }
 
 void DmaEngine::request(::tlm::tlm_generic_payload& payload, Cycles cycle) {
@@ -100,6 +101,11 @@ void DmaEngine::answered(const sc_core::sc_time& time, bool was_full) {
   ++answered_;
   last_answer_ = std::max(last_answer_, time);
   burst_answered(cycle);
+  if (!told_.empty() && answered_ >= told_.front().first) {
+    const std::shared_ptr<TransferProgress> progress = told_.front().progress;
+    if (answered_ == told_.front().last) told_.pop_front();
+    progress->answered(time);
+  }
   for (End& end : ends_) {
     if (end.answers == answered_) end.time = last_answer_;
   }
@@ -135,11 +141,29 @@ bool DmaReader::request_next() {
       latest = i;
     }
   }
-  if (!known) return false;
-  blocked_.push_back({latest, std::max(Cycles(0), room - free())});
+  const std::optional<Cycles> behind = written();
+  if (!known || !behind) return false;
+  const Cycles ready = std::max(free(), *behind);
+  blocked_.push_back({latest, std::max(Cycles(0), room - ready)});
   send_rows(last_byte());
-  request(take_payload(::tlm::TLM_READ_COMMAND), std::max(free(), room));
+  request(take_payload(::tlm::TLM_READ_COMMAND), std::max(ready, room));
   return true;
+}
+
+// When the bytes of the next burst are in memory, if that is known; values must be there now.
+std::optional<Cycles> DmaReader::written() {
+  if (!job().behind) return Cycles(0);
+  const std::optional<sc_core::sc_time> date = job().behind->reached(job().needed(last_byte()));
+  if (!date) {
+    job().behind->wait(*this);
+    return std::nullopt;
+  }
+  const Cycles cycle = cycle_at_or_after(*date);
+  if (job().values && !has_come(cycle)) {
+    look_again(cycle);
+    return std::nullopt;
+  }
+  return cycle;
 }
 
 void DmaReader::job_begins() {

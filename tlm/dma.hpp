@@ -5,12 +5,15 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <memory>
+#include <optional>
 #include <systemc>
 #include <vector>
 
 #include "tlm/bus_master.hpp"
 #include "tlm/ring.hpp"
 #include "tlm/stream.hpp"
+#include "tlm/transfer_progress.hpp"
 #include "tlm/units.hpp"
 
 namespace parallax {
@@ -41,6 +44,14 @@ struct DmaJob {
   std::uint64_t pitch =
       0;  ///< bytes from one row's begin to the next one's, the rows being equally long; or 0
   std::function<void()> begun{};  ///< called when the first burst is answered
+  bool downwards =
+      false;  ///< the last burst first; of one piece that is a whole number of bursts, without values
+  std::shared_ptr<TransferProgress> progress{};  ///< told of each burst that is answered
+  /// For a reader that must not overtake a writer: bytes before `last_byte` of this job are requested when
+  /// `needed(last_byte)` bursts of `behind` have been answered; with values, all rows that the burst touches
+  /// must be in memory then.
+  std::shared_ptr<TransferProgress> behind{};
+  std::function<std::uint64_t(std::uint64_t last_byte)> needed{};
 
   std::uint64_t bytes() const;
   /// Bytes of a piece; the transfer's own where it is one piece.
@@ -71,6 +82,9 @@ class DmaEngine : public sc_core::sc_module, public Actor, private BusClient {
   const DmaJob& job() const { return job_; }
   std::uint64_t first_byte() const { return at_; }
   std::uint64_t last_byte() const { return std::min(at_ + burst_, piece_end_); }
+  std::uint64_t memory_address() const {
+    return job_.downwards ? job_.address + bytes_ - last_byte() : piece_address_ + at_;
+  }
   /// First cycle in which the engine itself could request it.
   Cycles free() const { return free_; }
   void not_free_before(Cycles cycle) { free_ = std::max(free_, cycle); }
@@ -81,6 +95,7 @@ class DmaEngine : public sc_core::sc_module, public Actor, private BusClient {
   void request(::tlm::tlm_generic_payload& payload, Cycles cycle);
   /// Looks at the burst again in `cycle`, if not before.
   void look_again(Cycles cycle);
+  Cycles cycle_at_or_after(const sc_core::sc_time& time) const { return clock_.cycle_at_or_after(time); }
   bool has_come(Cycles cycle) const { return clock_.time_of(cycle) <= sc_core::sc_time_stamp(); }
 
  private:
@@ -115,6 +130,12 @@ class DmaEngine : public sc_core::sc_module, public Actor, private BusClient {
     sc_core::sc_time time;  // of the last answer, once `answers` have come
   };
   std::deque<End> ends_;
+  struct Told {           // by each of a job's answers
+    std::uint64_t first;  // its number
+    std::uint64_t last;
+    std::shared_ptr<TransferProgress> progress;
+  };
+  std::deque<Told> told_;
   sc_core::sc_time last_answer_;
   std::uint64_t requested_ = 0;
   std::uint64_t answered_ = 0;
@@ -128,7 +149,7 @@ class DmaEngine : public sc_core::sc_module, public Actor, private BusClient {
 /// has a place reserved for the answer. A token is one burst; values are the rows' bytes. Storage: the FIFO.
 ///
 /// Values run ahead of time: a row is fetched by a functional access when its first burst is requested, so it
-/// must be in memory by the start of its job.
+/// must be in memory by the start of its job, or by the date that DmaJob::behind gives.
 class DmaReader final : public DmaEngine {
  public:
   StreamOut<std::uint8_t> out_bursts{"out_bursts"};
@@ -142,6 +163,7 @@ class DmaReader final : public DmaEngine {
   void request_taken(Cycles) override {}
   void burst_answered(Cycles cycle) override;
   Dataflow& dataflow() override { return out_bursts[0]->dataflow(); }
+  std::optional<Cycles> written();
   void send_rows(std::uint64_t until);
 
   std::size_t row_ = 0;          // of the job: the next to be handed on

@@ -47,6 +47,7 @@ void DmaConfig::validate() const {
   validate_port("map", map);
   validate_port("output", output);
   validate_port("link", link);
+  validate_port("buffer", buffer);
 }
 
 void describe(Schema& schema, DmaConfig& config) {
@@ -56,6 +57,7 @@ void describe(Schema& schema, DmaConfig& config) {
   describe_port(schema, "map", "reads the rectification map", config.map);
   describe_port(schema, "output", "writes the results", config.output);
   describe_port(schema, "link", "reads the results to send them", config.link);
+  describe_port(schema, "buffer", "writes, or reads back, what the matcher keeps in memory", config.buffer);
 }
 
 }  // namespace parallax

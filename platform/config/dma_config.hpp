@@ -17,12 +17,13 @@ struct DmaPortConfig {
 
 /// The ports of the machine's memory.
 struct DmaConfig {
-  DmaPortConfig camera;  ///< both sensors, writes frames
-  DmaPortConfig left;    ///< reads the left image
-  DmaPortConfig right;   ///< reads the right image
-  DmaPortConfig map;     ///< reads the rectification map
-  DmaPortConfig output;  ///< writes results
-  DmaPortConfig link;    ///< reads results to send them
+  DmaPortConfig camera;                     ///< both sensors, writes frames
+  DmaPortConfig left;                       ///< reads the left image
+  DmaPortConfig right;                      ///< reads the right image
+  DmaPortConfig map;                        ///< reads the rectification map
+  DmaPortConfig output;                     ///< writes results
+  DmaPortConfig link;                       ///< reads results to send them
+  DmaPortConfig buffer{128, 8, 256, 2048};  ///< write and read back what the matcher keeps in memory
 
   /// Throws UserError when a burst is no multiple of its port's width or does not fit into the port's buffer.
   void validate() const;

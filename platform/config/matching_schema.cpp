@@ -94,8 +94,16 @@ void describe(Schema& schema, MatchingConfig& config) {
        {"s", kPathS},
        {"se", kPathSE}},
       "Paths whose costs are summed, each named for where the predecessor of a pixel lies. e holds a row of "
-      "costs; sw, s and se need a second pass over the image and memory traffic.",
+      "costs; sw, s and se need a second pass over the image, and memory traffic through the ports "
+      "buffer_frame_write and buffer_frame_read.",
       inferred("the paths that need one pass over the image"));
+  schema.choice(
+      "matching.path_storage", config.path_storage,
+      {{"on_chip", PathStorage::kOnChip}, {"memory", PathStorage::kMemory}},
+      "Where the path costs of the previous row lie: on chip, or in memory, written and read back "
+      "through the ports buffer_row_write and buffer_row_read.",
+      inferred("a row of them, some 2.2 Mbit with 128 disparities at 640 columns, fits on chip; what the "
+               "device's buffer port is for is not published"));
   schema.choice("matching.outside_cost", config.outside_cost,
                 {{"maximum", OutsideCost::kMaximum},
                  {"replicate", OutsideCost::kReplicate},

@@ -25,6 +25,7 @@ void describe(Schema& schema, MemoryMapConfig& config) {
   place("right", config.right, "the first right image", true);
   place("map", config.map, "the rectification map", false);
   place("output", config.output, "the first buffer of results", true);
+  place("buffer", config.buffer, "what the matcher keeps in memory, if it does", false);
 }
 
 }  // namespace parallax

@@ -22,6 +22,7 @@ struct MemoryMapConfig {
   Place right;                    ///< right images
   Place map;                      ///< the rectification map, one buffer
   Place output;                   ///< results
+  Place buffer;                   ///< what the matcher keeps in memory, one buffer
 };
 
 void describe(Schema& schema, MemoryMapConfig& config);

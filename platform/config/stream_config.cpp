@@ -11,10 +11,11 @@ namespace parallax {
 
 const std::vector<std::string>& pipeline_stream_names() {
   static const std::vector<std::string> names{
-      "left_pixels",     "right_pixels",     "map_words",         "map_entries",  "left_rectified",
-      "right_rectified", "left_texture",     "left_output",       "left_codes",   "right_codes",
-      "costs_subpixel",  "costs_uniqueness", "costs_consistency", "winners",      "unique",
-      "consistent",      "textured",         "despeckled",        "interpolated", "smoothed"};
+      "left_pixels",     "right_pixels",     "map_words",         "map_entries",   "left_rectified",
+      "right_rectified", "left_texture",     "left_output",       "left_codes",    "right_codes",
+      "costs_subpixel",  "costs_uniqueness", "costs_consistency", "winners",       "unique",
+      "consistent",      "textured",         "despeckled",        "interpolated",  "smoothed",
+      "kept_rows",       "returned_rows",    "kept_frame",        "returned_frame"};
   return names;
 }
 

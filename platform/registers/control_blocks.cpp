@@ -30,6 +30,7 @@ ControlBlocks::ControlBlocks(const sc_core::sc_module_name& name, const MachineC
     show_fifo("input_fifo_info", {facts_.left, facts_.right});
   });
   bank.on_read("dma", "map_fifo_info", [this] { show_fifo("map_fifo_info", {facts_.map}); });
+  bank.on_read("dma", "buffer_fifo_info", [this] { show_fifo("buffer_fifo_info", facts_.buffer); });
   bank.on_read("dma", "output_fifo_info", [this] { show_fifo("output_fifo_info", {facts_.output}); });
   bank.on_read("dma", "output_bytes_available", [this] {
     const std::uint64_t bytes = facts_.output.master->statistics().bytes - output_before_;
@@ -80,7 +81,8 @@ void ControlBlocks::start(std::uint32_t triggers) {
   if (under_way_++ == 0) output_before_ = facts_.output.master->statistics().bytes;
   bank.set("dma", "status", "busy", 1);
   bank.set("dma", "status", "ready", config_.software.queue_frames ? 1 : 0);
-  hooks_.on_start({address("left"), address("right"), address("map"), address("output"), parameters_});
+  hooks_.on_start(
+      {address("left"), address("right"), address("map"), address("output"), address("buffer"), parameters_});
 }
 
 bool ControlBlocks::judge_start() {
@@ -106,7 +108,8 @@ bool ControlBlocks::judge_start() {
     return begin <= facts_.memory_bytes && bytes <= facts_.memory_bytes - begin;
   };
   require(in_memory("left", facts_.image_bytes) && in_memory("right", facts_.image_bytes) &&
-              in_memory("map", facts_.map_bytes) && in_memory("output", facts_.output_bytes),
+              in_memory("map", facts_.map_bytes) && in_memory("output", facts_.output_bytes) &&
+              (facts_.buffer_bytes == 0 || in_memory("buffer", facts_.buffer_bytes)),
           "address");
   return good;
 }

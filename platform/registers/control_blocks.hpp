@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <systemc>
+#include <vector>
 
 #include "platform/algorithm_parameters.hpp"
 #include "platform/config/machine_config.hpp"
@@ -18,6 +19,7 @@ struct FrameCommand {
   std::uint64_t right = 0;   ///< address
   std::uint64_t map = 0;     ///< address
   std::uint64_t output = 0;  ///< address
+  std::uint64_t buffer = 0;  ///< address; of no meaning to a matcher that keeps nothing in memory
   AlgorithmParameters parameters;
 };
 
@@ -28,12 +30,14 @@ struct CoreFacts {
   std::uint64_t image_bytes = 0;  ///< of one image in memory
   std::uint64_t map_bytes = 0;
   std::uint64_t output_bytes = 0;
+  std::uint64_t buffer_bytes = 0;  ///< 0: the matcher keeps nothing in memory
   std::uint64_t memory_bytes = 0;
   struct Port {
     const BusMaster* master;
     std::uint32_t places;  ///< requests that it may have under way
   };
   Port left, right, map, output;
+  std::vector<Port> buffer;
 };
 
 /// The core's two control blocks (register_map.hpp). A start is judged as a whole: what cannot be, sets error

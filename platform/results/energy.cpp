@@ -73,7 +73,7 @@ EnergyActivity energy_activity(const Machine& machine, const SteadyWindow& windo
   for (std::size_t port = 0; port < last.ports.size(); ++port) {
     const auto bytes = static_cast<double>(last.ports[port].bytes - first.ports[port].bytes);
     activity.memory_bytes += bytes;
-    if (std::strncmp(Machine::port_names()[port], "camera", 6) == 0) activity.camera_bytes += bytes;
+    if (machine.ports()[port].engine == "camera") activity.camera_bytes += bytes;
   }
   if (machine.memory() != nullptr && machine.memory()->commands() != nullptr) {
     activity.rows_opened = static_cast<double>(last.dram.activates - first.dram.activates);

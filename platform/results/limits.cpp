@@ -83,15 +83,14 @@ std::vector<PartLoad> part_loads(const Machine& machine, const SteadyWindow& win
                      1.0 / config.camera.frame_rate});
   }
 
-  const std::vector<std::uint32_t> places = machine.dma_places();
+  const std::vector<Machine::Port>& ports = machine.ports();
   for (std::size_t port = 0; port < last.ports.size(); ++port) {
     const sc_core::sc_time occupied = last.ports[port].occupied - first.ports[port].occupied;
-    const std::uint64_t whole = places[port] * (last.time - first.time).value();
-    const std::string name = Machine::port_names()[port];
-    const std::string key = name.rfind("camera", 0) == 0 ? "camera" : name;
-    loads.push_back({"dma_" + name, "dma." + key + ".outstanding",
+    const std::uint32_t places = ports[port].places;
+    const std::uint64_t whole = places * (last.time - first.time).value();
+    loads.push_back({"dma_" + ports[port].name, "dma." + ports[port].engine + ".outstanding",
                      static_cast<double>(occupied.value()) / static_cast<double>(whole),
-                     occupied.to_seconds() / places[port] / frames});
+                     occupied.to_seconds() / places / frames});
   }
 
   if (!config.software.queue_frames) {

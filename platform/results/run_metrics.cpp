@@ -72,8 +72,11 @@ void add_limit(MetricGroup& root, const Machine& machine, const SteadyWindow& wi
 // Cycles in which a port of the core held up the stage at its other end.
 void add_stalls(MetricGroup& memory, const Machine& machine, const SteadyWindow& window) {
   const double frames = static_cast<double>(std::max<std::size_t>(1, window.frames()));
-  for (const auto& [port, stage] : {std::pair{"left", "unpack_left"}, std::pair{"right", "unpack_right"},
-                                    std::pair{"map", "unpack_map"}, std::pair{"output", "output_packing"}}) {
+  for (const auto& [port, stage] :
+       {std::pair{"left", "unpack_left"}, std::pair{"right", "unpack_right"}, std::pair{"map", "unpack_map"},
+        std::pair{"output", "output_packing"}, std::pair{"buffer_row_write", "pack_rows"},
+        std::pair{"buffer_row_read", "unpack_rows"}, std::pair{"buffer_frame_write", "pack_frame"},
+        std::pair{"buffer_frame_read", "unpack_frame"}}) {
     for (const StageInfo& info : machine.pipeline().stages()) {
       if (info.stage->basename() != std::string(stage)) continue;
       memory.group(port).add(
@@ -130,7 +133,7 @@ void add_dram(MetricGroup& memory, const DramStatistics& first, const DramStatis
 void add_memory(MetricGroup& root, const Machine& machine, const SteadyWindow& window) {
   MetricGroup& memory = root.group("memory");
   const Memory* model = machine.memory();
-  const std::vector<const BusMaster*> ports = machine.ports();
+  const std::vector<Machine::Port>& ports = machine.ports();
   Activity first;  // the beginning of the run
   first.ports.resize(ports.size());
   if (window.frames() > 0) first = machine.activities()[window.first];
@@ -144,12 +147,12 @@ void add_memory(MetricGroup& root, const Machine& machine, const SteadyWindow& w
   std::uint64_t total = 0;
   Cycles total_bus;  // whole cycles, so that a bus that is always taken is so for 100 %
   for (std::size_t id = 0; id < ports.size(); ++id) {
-    MetricGroup& group = memory.group(Machine::port_names()[id]);
+    MetricGroup& group = memory.group(ports[id].name);
     const std::uint64_t bytes = last.ports[id].bytes - first.ports[id].bytes;
     const Cycles bus = last.ports[id].bus - first.ports[id].bus;
     total += bytes;
     total_bus += bus;
-    add_port(group, *ports[id], window, bytes, elapsed);
+    add_port(group, *ports[id].master, window, bytes, elapsed);
     if (model != nullptr) {
       group.add(
           {"share", share(bus), "%", "Time in which the memory's bus was taken for the port.", window.text});

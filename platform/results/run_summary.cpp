@@ -21,7 +21,13 @@ std::string word(const MetricGroup& metrics, const std::string& path) {
 
 std::string memory_lines(const MetricGroup& m) {
   std::string text;
-  std::vector<std::string> ports(Machine::port_names().begin(), Machine::port_names().end());
+  std::vector<std::string> ports;
+  for (const MetricGroup& group : m.groups) {
+    if (group.name != "memory") continue;
+    for (const MetricGroup& port : group.groups) {
+      if (port.find("bytes_per_frame") != nullptr) ports.push_back(port.name);
+    }
+  }
   std::stable_partition(ports.begin(), ports.end(), [](const std::string& port) { return port == "map"; });
   for (const std::string& port : ports) {
     const std::string path = "memory/" + port + "/";

@@ -118,7 +118,7 @@ TEST(matching, emits_each_row_at_once_unless_a_second_pass_is_needed) {
       EXPECT_EQ(emitted, two_passes ? (y == 3 ? 4 : 0) : y + 1);
     }
     EXPECT_EQ(matching.look_ahead_rows(), two_passes ? 3 : 0);
-    EXPECT_EQ(matching.look_ahead_pixels(), paths == kFourPaths ? 0 : 7);
+    EXPECT_EQ(matching.look_ahead_pixels(), paths == kFourPaths ? 0 : (paths & kSouthernPaths) != 0 ? 8 : 7);
   }
 }
 
@@ -128,7 +128,8 @@ TEST(matching, declares_what_its_circuit_needs) {
     const Matching matching(config, 640, 480, 24);
     // 24 + 255 needs 9 bits; 128 costs and a minimum for three paths of a row and for one pixel.
     EXPECT_EQ(matching.storage_bits(), 9 * 129 * (3 * 640 + 1) + 24 * 127);
-    EXPECT_EQ(matching.external_storage_bits(), 0);
+    EXPECT_EQ(matching.store().frame, 0);
+    EXPECT_EQ(matching.store().first_pass_row, 0);
     EXPECT_EQ(matching.cost_bits(), 11);  // 4 * 279
   }
   config.cost_weight = 4;
@@ -139,9 +140,20 @@ TEST(matching, declares_what_its_circuit_needs) {
   }
   config.cost_weight = 1;
   config.paths = kEightPaths;
+  {
+    const Matching matching(config, 64, 48, 24);
+    // The first pass sums five paths of at most 279: 11 bits.
+    EXPECT_EQ(matching.store().frame, 128 * 11 + 2 * 24);
+    EXPECT_EQ(matching.store().second_pass_row, 0);
+  }
+  config.path_storage = PathStorage::kMemory;
   const Matching matching(config, 64, 48, 24);
-  // The first pass sums five paths of at most 279: 11 bits.
-  EXPECT_EQ(matching.external_storage_bits(), 64 * 48 * (128 * 11 + 2 * 24));
+  EXPECT_EQ(matching.store().first_pass_row, 3 * 9 * 129);
+  EXPECT_EQ(matching.store().second_pass_row, 3 * 9 * 129);
+  EXPECT_EQ(matching.store().frame, 128 * 11 + 2 * 24);
+  // Of rows, two pixels of one path and one of another stay, and both horizontal paths; as before: right
+  // codes, and for path E a row of costs (5 bits) and of sums (8 * 279: 12 bits).
+  EXPECT_EQ(matching.storage_bits(), 9 * 129 * (3 + 2) + 24 * 127 + 64 * 128 * (5 + 12));
 }
 
 TEST(matching, bad_configuration) {

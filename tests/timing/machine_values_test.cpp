@@ -109,6 +109,8 @@ TEST(MachineValues, DoNotDependOnTheMemory) {
       {"memory.model=bus", "memory.bytes_per_cycle=1", "memory.efficiency=3"},
       {"memory.device=ddr4-2400-x64", "memory.mapping=rbcg"},
       {"memory.device=lpddr4-3200-x32", "memory.mapping=brc", "memory_map.alignment=32768"},
+      {"matching.path_storage=memory"},
+      {"matching.path_storage=memory", "dma.buffer.data_bits=8", "dma.buffer.outstanding=1"},
       {"camera.format=mono12_packed"},
       {"link.color_output=true"},
       {"camera.format=mono12", "dma.left.burst_bytes=8"},

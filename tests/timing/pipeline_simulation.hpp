@@ -22,6 +22,7 @@ struct PipelineCase {
   EncodedMap map;  ///< cut for the tiles
   TilePlan tiles;
   std::vector<std::uint32_t> left, right, map_stalls, output;
+  std::vector<std::uint32_t> rows_kept, rows_returned, frame_kept, frame_returned;
 
   int height() const { return map.height / static_cast<int>(tiles.tiles.size()); }
 };
@@ -42,8 +43,15 @@ struct PipelineBursts {
       output += bursts(OutputPacking::row_bytes(tile.keep_end - tile.keep_begin, c.config.link.output_left()),
                        c.config.dma.output);
     }
+    const MatcherStore store = matcher_store(c.config, c.tiles.width, c.height());
+    for (const StoreLayout::Pass& pass : store.rows.passes)
+      kept_rows += pass.rows * store.rows.row_bursts(pass);
+    const StoreLayout::Pass& pass = store.frame.passes.front();
+    kept_frame = pass.rows * store.frame.row_bursts(pass);
+    kept_rows *= c.tiles.tiles.size();
+    kept_frame *= c.tiles.tiles.size();
   }
-  std::uint64_t left = 0, right = 0, map, output = 0;
+  std::uint64_t left = 0, right = 0, map, output = 0, kept_rows = 0, kept_frame = 0;
 };
 
 class PipelineSimulation {
@@ -63,6 +71,14 @@ class PipelineSimulation {
         map_("map", clock_, map_node_),
         output_("output", clock_, output_node_) {
     pipeline_.bind(*left_.out, *right_.out, *map_.out, *output_.in);
+    if (pipeline_.store().keeps_rows()) {
+      rows_ = std::make_unique<StoreEnds>("rows", clock_, c.rows_kept, c.rows_returned);
+      pipeline_.bind_rows(*rows_->kept.in, *rows_->returned.out);
+    }
+    if (pipeline_.store().keeps_frame()) {
+      frame_ = std::make_unique<StoreEnds>("frame", clock_, c.frame_kept, c.frame_returned);
+      pipeline_.bind_frame(*frame_->kept.in, *frame_->returned.out);
+    }
     const std::vector<StreamBase*>& streams = dataflow_.streams();
     dates_.resize(streams.size());
     for (std::size_t i = 0; i < streams.size(); ++i) {
@@ -113,6 +129,11 @@ class PipelineSimulation {
     add_end(right_node_, right_);
     add_end(map_node_, map_);
     add_end(output_node_, output_);
+    for (const StoreEnds* ends : {rows_.get(), frame_.get()}) {
+      if (ends == nullptr) continue;
+      add_end(ends->kept_node, ends->kept);
+      add_end(ends->returned_node, ends->returned);
+    }
     for (const StreamBase* stream : dataflow_.streams()) {
       const FifoConfig& fifo = stream->config();
       edges[stream].depth = fifo.depth;
@@ -144,12 +165,25 @@ class PipelineSimulation {
     return node;
   }
 
+  struct StoreEnds {
+    StoreEnds(const std::string& what, const ClockDomain& clock,
+              const std::vector<std::uint32_t>& kept_stalls,
+              const std::vector<std::uint32_t>& returned_stalls)
+        : kept_node(end(GraphNode::Kind::kSink, kept_stalls)),
+          returned_node(end(GraphNode::Kind::kSource, returned_stalls)),
+          kept((what + "_kept").c_str(), clock, kept_node),
+          returned((what + "_returned").c_str(), clock, returned_node) {}
+    GraphNode kept_node, returned_node;
+    GraphThread<std::uint8_t> kept, returned;
+  };
+
   const PipelineCase case_;
   ClockDomain clock_;
   Dataflow dataflow_;
   Pipeline pipeline_;
   GraphNode left_node_, right_node_, map_node_, output_node_;
   GraphThread<std::uint8_t> left_, right_, map_, output_;
+  std::unique_ptr<StoreEnds> rows_, frame_;
   std::vector<EdgeDates> dates_;
   std::vector<std::unique_ptr<DateLog>> logs_;
 };

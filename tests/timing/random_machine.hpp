@@ -67,8 +67,9 @@ inline MachineCase random_machine(std::uint32_t seed, Contention contention) {
   set("dma.camera.burst_bytes", 8 << number(0, 4));
   if (contention == Contention::kNone) {
     // All ports at once are served within any cycle of the others' clocks.
-    for (const char* fast : {"memory.model=bus", "clocks.memory_hz=10000000000", "memory.bytes_per_cycle=1024",
-                             "memory.efficiency=100", "memory.latency_cycles=0"}) {
+    for (const char* fast :
+         {"memory.model=bus", "clocks.memory_hz=10000000000", "memory.bytes_per_cycle=1024",
+          "memory.efficiency=100", "memory.latency_cycles=0"}) {
       c.others.emplace_back(fast);
     }
   } else {
@@ -91,6 +92,9 @@ inline MachineCase random_machine(std::uint32_t seed, Contention contention) {
   const char* formats[] = {"mono8", "mono8", "mono12", "rgb8", "bayer8"};
   c.others.push_back(std::string("camera.format=") + formats[number(0, 4)]);
   if (number(0, 3) == 0) c.others.emplace_back("link.color_output=true");
+  if (number(0, 3) == 0) c.others.emplace_back("matching.path_storage=memory");
+  if (number(0, 3) == 0) c.others.emplace_back("matching.paths=w,n,ne,s");
+  set("dma.buffer.outstanding", number(1, 8));
   return c;
 }
 

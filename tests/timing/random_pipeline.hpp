@@ -68,6 +68,8 @@ inline PipelineCase random_pipeline(Depths depths, std::uint64_t frames, int lar
   config.matching.parallelism = number(1, 8);
   config.matching.iterations = number(1, 3);
   if (number(0, 3) == 0) config.matching.recurrence_latency = number(2, 9);
+  if (number(0, 2) == 0) config.matching.paths = count(1, 255);
+  if (number(0, 2) == 0) config.matching.path_storage = PathStorage::kMemory;
   config.consistency.enabled = number(0, 3) != 0;
   config.texture.enabled = number(0, 3) != 0;
   config.texture.window = 2 * number(1, 4) + 1;
@@ -81,7 +83,8 @@ inline PipelineCase random_pipeline(Depths depths, std::uint64_t frames, int lar
                               &time.speckle, &time.gap_interpolation, &time.noise_reduction}) {
     *timing = random_timing();
   }
-  for (DmaPortConfig* port : {&config.dma.left, &config.dma.right, &config.dma.map, &config.dma.output}) {
+  for (DmaPortConfig* port :
+       {&config.dma.left, &config.dma.right, &config.dma.map, &config.dma.output, &config.dma.buffer}) {
     *port = random_port();
   }
   config.streams.default_depth = count(1, 20);
@@ -113,6 +116,10 @@ inline PipelineCase random_pipeline(Depths depths, std::uint64_t frames, int lar
   c.right = random_stalls(frames * bursts.right);
   c.map_stalls = random_stalls(frames * bursts.map);
   c.output = random_stalls(frames * bursts.output);
+  c.rows_kept = random_stalls(frames * bursts.kept_rows);
+  c.rows_returned = random_stalls(frames * bursts.kept_rows);
+  c.frame_kept = random_stalls(frames * bursts.kept_frame);
+  c.frame_returned = random_stalls(frames * bursts.kept_frame);
   return c;
 }
 
