@@ -32,7 +32,7 @@ MatchingStage::MatchingStage(const sc_core::sc_module_name& name, const Matching
   raster.writes.every = 0b1;
   PortMask in = 0b100;  // the next ones to be declared
   PortMask out = 0b10;
-  if (store_.first_pass_row + store_.second_pass_row > 0) {
+  if (context.height > 1 && store_.first_pass_row + store_.second_pass_row > 0) {
     in_rows = std::make_unique<StreamIn<std::uint8_t>>("in_rows");
     out_rows = std::make_unique<StreamOut<std::uint8_t>>("out_rows");
     const RasterSchedule::RowStore rows{{0, in, 0}, {0, 0, out}};

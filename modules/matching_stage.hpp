@@ -28,7 +28,7 @@ class MatchingStage final : public Stage {
   StreamIn<CensusCode> in_left{"in_left"};
   StreamIn<CensusCode> in_right{"in_right"};
   StreamOut<Cost> out_costs{"out_costs"};  ///< a token is p costs
-  /// There if something is kept; declared in this order.
+  /// There if something is kept (no row of an image that has one only); declared in this order.
   std::unique_ptr<StreamIn<std::uint8_t>> in_rows, in_frame;
   std::unique_ptr<StreamOut<std::uint8_t>> out_rows, out_frame;
 

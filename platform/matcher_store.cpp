@@ -14,7 +14,7 @@ std::uint64_t whole_bytes(std::int64_t bits) { return static_cast<std::uint64_t>
 
 bool MatcherStore::keeps_rows() const {
   return std::any_of(rows.passes.begin(), rows.passes.end(),
-                     [](const StoreLayout::Pass& pass) { return pass.record_bytes > 0; });
+                     [](const StoreLayout::Pass& pass) { return pass.rows * pass.record_bytes > 0; });
 }
 
 bool MatcherStore::keeps_frame() const { return frame.passes.front().record_bytes > 0; }
