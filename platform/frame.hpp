@@ -19,9 +19,10 @@ struct StereoFrame {
 
 /// When a frame reached the parts of the machine, in kernel time.
 struct FrameTimes {
-  sc_core::sc_time exposed;          ///< end of exposure, read-out begins
-  sc_core::sc_time first_byte;       ///< the first burst of either image in memory
-  sc_core::sc_time in_memory;        ///< both images complete in memory, processing begins
+  sc_core::sc_time exposed;     ///< end of exposure, read-out begins
+  sc_core::sc_time first_byte;  ///< the first burst of either image in memory
+  sc_core::sc_time
+      in_memory;  ///< both images in memory, or camera.early_start_rows of them: the core can start
   sc_core::sc_time first_disparity;  ///< first disparity out of the last filter
   sc_core::sc_time last_disparity;   ///< last disparity out of the last filter
   sc_core::sc_time results_in_memory;
@@ -34,6 +35,7 @@ struct CameraCounts {
   std::int64_t taken = 0;    ///< frames that found a buffer
   std::int64_t dropped = 0;  ///< frames that found none
   std::int64_t missed = 0;   ///< triggers that found a sensor reading out
+  std::int64_t faulty = 0;   ///< frames that a camera fault spoilt
 };
 
 /// How far each part's work had come at one date, from the beginning of the run.
@@ -49,9 +51,10 @@ struct Activity {
   DramStatistics dram;      ///< when the memory is a DRAM
   Cycles camera;            ///< camera cycles in which a sensor read a frame out
   CameraCounts cameras;
-  sc_core::sc_time core;  ///< in which the core worked on a frame or was about to be started
-  Cycles wire;            ///< link cycles with a packet on the wire
-  Cycles host;            ///< link cycles in which the host was taking pixels
+  sc_core::sc_time output_full;  ///< in which only a buffer for its results kept the core from a frame
+  sc_core::sc_time core;         ///< in which the core worked on a frame or was about to be started
+  Cycles wire;                   ///< link cycles with a packet on the wire
+  Cycles host;                   ///< link cycles in which the host was taking pixels
 };
 
 /// What comes out for one frame. Images are row-major and of the machine's size; empty for a timing-only

@@ -5,9 +5,13 @@ namespace parallax {
 
 const std::vector<FrameSpan>& frame_spans() {
   static const std::vector<FrameSpan> spans{
-      {"first_pixel", "From the frame complete in memory to its first disparity out of the last filter.",
+      {"first_pixel",
+       "From the frame in memory (as far as the core waits for it) to its first disparity out of the last "
+       "filter.",
        &FrameTimes::in_memory, &FrameTimes::first_disparity},
-      {"last_pixel", "From the frame complete in memory to its last disparity out of the last filter.",
+      {"last_pixel",
+       "From the frame in memory (as far as the core waits for it) to its last disparity out of the last "
+       "filter.",
        &FrameTimes::in_memory, &FrameTimes::last_disparity},
       {"first_byte_to_first_pixel",
        "From the frame's first byte in memory to its first disparity out of the last filter.",

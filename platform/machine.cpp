@@ -75,7 +75,8 @@ Machine::Machine(const sc_core::sc_module_name& name, const MachineConfig& confi
                       sc_core::sc_time& date = times_[static_cast<std::size_t>(frame)].first_byte;
                       if (date == sc_core::SC_ZERO_TIME) date = sc_core::sc_time_stamp();
                     },
-                    [this](std::int64_t frame) { frame_in_memory(frame); }}),
+                    [this](std::int64_t frame) { frame_in_memory(frame); },
+                    [this](CameraFault fault) { control_.frame_faulty(fault); }}),
       core_("core", config_, input_, {tiles_, map()}, core_clock_, dataflow_),
       transmission_("transmission", config_, link_clock_, dataflow_),
       ports_(make_ports()),
@@ -126,12 +127,20 @@ void Machine::frame_in_memory(std::int64_t frame) {
 // Called whenever something may have changed that the core's next frame waits for.
 void Machine::start_when_possible() {
   const bool buffer = output_buffers_used_ < static_cast<std::int64_t>(memory_map_.outputs.size());
-  if (starting_ || started_ == in_memory_ || !buffer) return;
-  if (in_core_ > 0 && !config_.software.queue_frames) return;
+  const bool frame = !starting_ && started_ < in_memory_ && (in_core_ == 0 || config_.software.queue_frames);
+  note_output_full(frame && !buffer);
+  if (!frame || !buffer) return;
   starting_ = true;
   ++output_buffers_used_;
   if (in_core_ == 0) core_taken_since_ = sc_core::sc_time_stamp();
   start_.notify(sc_core::sc_time(static_cast<double>(config_.software.response_ns), sc_core::SC_NS));
+}
+
+void Machine::note_output_full(bool full) {
+  const sc_core::sc_time now = sc_core::sc_time_stamp();
+  if (output_full_) output_full_time_ += now - output_full_since_;
+  output_full_since_ = now;
+  output_full_ = full;
 }
 
 // Software's part: registers, and another try when the core does not take the frame.
@@ -163,9 +172,26 @@ void Machine::core_started(const FrameCommand& command) {
   starting_ = false;
   ++in_core_;
   const std::int64_t frame = started_++;
-  core_.start({command.left, command.right, command.map, values_[static_cast<std::size_t>(frame)],
-               command.parameters, command.output, command.buffer, [this] { acquisition_.release(); },
-               [this, frame] { results_in_memory(frame); }});
+  CoreJob job;
+  job.left = command.left;
+  job.right = command.right;
+  job.map = command.map;
+  job.values = values_[static_cast<std::size_t>(frame)];
+  job.parameters = command.parameters;
+  job.output = command.output;
+  job.buffer = command.buffer;
+  job.left_source = image_source(acquisition_.left_progress(), frame);
+  job.right_source = image_source(acquisition_.right_progress(), frame);
+  job.read = [this] { acquisition_.release(); };
+  job.written = [this, frame] { results_in_memory(frame); };
+  if (core_.output_progress()) job.early = [this, frame] { send_results(frame); };
+  core_.start(job);
+}
+
+ImageSource Machine::image_source(const std::shared_ptr<TransferProgress>& progress,
+                                  std::int64_t frame) const {
+  if (!progress) return {};
+  return {progress, acquisition_.bursts_before(frame), Bytes(config_.dma.camera.burst_bytes)};
 }
 
 CoreFacts Machine::core_facts() {
@@ -174,6 +200,9 @@ CoreFacts Machine::core_facts() {
   facts.height = input_.height;
   facts.image_bytes = bytes_of(config_.camera.format, static_cast<std::uint64_t>(input_.width)) *
                       static_cast<std::uint64_t>(input_.height);
+  const auto rows = static_cast<std::uint64_t>(input_.height);
+  const std::uint64_t early = config_.camera.early_start_rows;
+  facts.start_bytes = facts.image_bytes / rows * (early == 0 ? rows : std::min(early, rows));
   facts.map_bytes = map().bytes.size();
   facts.output_bytes = OutputPacking::row_bytes(input_.width, config_.link.output_left()) *
                        static_cast<std::uint64_t>(input_.height);
@@ -208,15 +237,28 @@ void Machine::results_in_memory(std::int64_t frame) {
   times.first_disparity = core_clock_.time_of(filter.first_pass(index).first_write);
   times.last_disparity = core_clock_.time_of(filter.last_pass(index).last_write);
 
+  if (!core_.output_progress()) send_results(frame);
+  start_when_possible();
+}
+
+// Of which all, or link.early_start_rows, are in memory.
+void Machine::send_results(std::int64_t frame) {
   DmaJob job;
   job.address = output_buffer(frame);
   job.row_bytes.assign(
       static_cast<std::size_t>(input_.height),
       static_cast<std::uint32_t>(OutputPacking::row_bytes(input_.width, config_.link.output_left())));
   job.values = values_[static_cast<std::size_t>(frame)];
+  if (const auto& progress = core_.output_progress()) {
+    job.behind = progress;
+    const std::uint64_t before = static_cast<std::uint64_t>(frame) *
+                                 core_.output_bursts_until(static_cast<std::uint64_t>(input_.height));
+    job.needed = [this, before, row = std::uint64_t{job.row_bytes.front()}](std::uint64_t last_byte) {
+      return before + core_.output_bursts_until((last_byte + row - 1) / row);
+    };
+  }
   transmission_.start(std::move(job),
                       [this, frame](const std::vector<std::uint8_t>& sent) { deliver(frame, sent); });
-  start_when_possible();
 }
 
 // Rows come tile by tile, each with all columns of its tile.
@@ -311,6 +353,8 @@ Activity Machine::activity() {
   activity.camera = sensor().busy();
   activity.cameras = acquisition_.counts();
   activity.core = core_taken();
+  note_output_full(output_full_);
+  activity.output_full = output_full_time_;
   activity.wire = link().wire_busy();
   activity.host = link().host_busy();
   return activity;

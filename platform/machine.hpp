@@ -90,6 +90,8 @@ class Machine final : public sc_core::sc_module {
   void core_started(const FrameCommand& command);
   CoreFacts core_facts();
   void results_in_memory(std::int64_t frame);
+  void send_results(std::int64_t frame);
+  ImageSource image_source(const std::shared_ptr<TransferProgress>& progress, std::int64_t frame) const;
   void take_row(const Disparity* row);
   void deliver(std::int64_t frame, const std::vector<std::uint8_t>& bytes);
   std::uint64_t output_buffer(std::int64_t frame) const;
@@ -97,6 +99,7 @@ class Machine final : public sc_core::sc_module {
   std::vector<Port> make_ports();
   Activity activity();
   sc_core::sc_time core_taken() const;
+  void note_output_full(bool full);
 
   const MachineConfig config_;
   const MachineInput input_;
@@ -127,9 +130,12 @@ class Machine final : public sc_core::sc_module {
   bool offering_ = false;            // it writes the registers of one: no other start is expected
   bool parameters_written_ = false;  // once, before the first frame
   std::int64_t rejected_starts_ = 0;
-  std::int64_t in_core_ = 0;           // frames
-  sc_core::sc_time core_taken_;        // time in which the core worked or was about to be started, until
-  sc_core::sc_time core_taken_since_;  // this date
+  std::int64_t in_core_ = 0;            // frames
+  sc_core::sc_time core_taken_;         // time in which the core worked or was about to be started, until
+  sc_core::sc_time core_taken_since_;   // this date
+  bool output_full_ = false;            // only a buffer for its results keeps the core from a frame
+  sc_core::sc_time output_full_time_;   // in which that was so, until
+  sc_core::sc_time output_full_since_;  // this date
   sc_core::sc_event start_;
   std::int64_t output_buffers_used_ = 0;
   std::int64_t delivered_ = 0;

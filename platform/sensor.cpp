@@ -15,8 +15,8 @@ Sensor::Sensor(const sc_core::sc_module_name& name, const SensorConfig& config, 
   dont_initialize();
 }
 
-void Sensor::read_out(SensorImage image) {
-  exposed_.push_back({std::move(image), clock_.now()});
+void Sensor::read_out(SensorImage image, Cycles delay, LostRows lost) {
+  exposed_.push_back({std::move(image), clock_.now() + delay, lost});
   go_on_.notify();
 }
 
@@ -34,9 +34,9 @@ Cycles Sensor::frame_time() const { return config_.row * config_.height + config
 Cycles Sensor::busy() const { return busy_ - std::max(Cycles(0), free_ - clock_.now()); }
 
 void Sensor::advance() {
-  const std::int64_t bytes = image_bytes();
   StreamBase& out = *out_bursts[0];
-  while (at_ < bytes || begin_image()) {
+  while (at_ < image_bytes() || begin_image()) {
+    const std::int64_t bytes = image_bytes();
     if (!out.write_date_known()) {
       out.wait_for_room();
       return;
@@ -55,7 +55,9 @@ void Sensor::advance() {
 // When a byte of the image is there: with the pixel that its last bit belongs to.
 Cycles Sensor::due(std::int64_t byte) const {
   const std::int64_t last_bit = (byte % row_bytes() + 1) * 8 - 1;
-  return begin_ + config_.row * (byte / row_bytes()) + Cycles(last_bit / bits_per_pixel(config_.format) + 1);
+  std::int64_t row = byte / row_bytes();
+  if (row >= lost_.first) row += lost_.count;
+  return begin_ + config_.row * row + Cycles(last_bit / bits_per_pixel(config_.format) + 1);
 }
 
 void Sensor::send(const SensorImage& image) {
@@ -95,6 +97,7 @@ bool Sensor::begin_image() {
   if (const SensorImage image = exposed_.front().image) {
     dataflow_.post([this, image] { send(image); });
   }
+  lost_ = exposed_.front().lost;
   exposed_.pop_front();
   begin_ = begin;
   free_ = begin + frame_time();

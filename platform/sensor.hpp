@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <deque>
 #include <memory>
@@ -27,6 +28,12 @@ struct SensorConfig {
 /// One image as a sensor sees it; without pixels it has a size and a time only.
 using SensorImage = std::shared_ptr<const std::vector<Gray>>;
 
+/// Rows of an image that do not arrive; their time passes.
+struct LostRows {
+  int first = 0;
+  int count = 0;
+};
+
 /// One sensor of the stereo camera with its cable: reads an exposed image out in raster order, a row every
 /// `row` cycles, a pixel a cycle in its format, and hands its bytes on in bursts. It cannot wait: a burst
 /// that finds the FIFO full is late. A burst's date is handed on as soon as it is known that there is room
@@ -38,13 +45,16 @@ class Sensor final : public sc_core::sc_module, public Actor {
   Sensor(const sc_core::sc_module_name& name, const SensorConfig& config, const ClockDomain& clock,
          Dataflow& dataflow);
 
-  /// Starts to read out an image, after the one before is out.
-  void read_out(SensorImage image);
+  /// Starts to read out an image `delay` cycles from now, after the one before is out. One with lost rows has
+  /// no pixels.
+  void read_out(SensorImage image, Cycles delay = Cycles(0), LostRows lost = {});
   /// Reads out a frame that nobody takes, beginning in a cycle in which the sensor was free: time passes, no
   /// bytes.
   void read_out_unheard(Cycles begin);
   /// Whether it reads out in `cycle`, which has come.
   bool reads_out_in(Cycles cycle) const;
+  /// Whether it can begin a frame in `cycle`, unless what it reads out now gets late.
+  bool free_by(Cycles cycle) const { return exposed_.empty() && std::max(free_, last_write_) <= cycle; }
   /// Pixel clocks of one frame, blanking included.
   Cycles frame_time() const;
   /// Pixel clocks spent on frames, blanking included, until now.
@@ -56,6 +66,7 @@ class Sensor final : public sc_core::sc_module, public Actor {
   struct Exposed {
     SensorImage image;
     Cycles at;
+    LostRows lost;
   };
 
   void advance() override;
@@ -65,7 +76,7 @@ class Sensor final : public sc_core::sc_module, public Actor {
   std::int64_t row_bytes() const {
     return static_cast<std::int64_t>(bytes_of(config_.format, static_cast<std::uint64_t>(config_.width)));
   }
-  std::int64_t image_bytes() const { return row_bytes() * config_.height; }
+  std::int64_t image_bytes() const { return row_bytes() * (config_.height - lost_.count); }
   Cycles due(std::int64_t byte) const;
   void send(const SensorImage& image);
 
@@ -74,6 +85,7 @@ class Sensor final : public sc_core::sc_module, public Actor {
   Dataflow& dataflow_;
   std::deque<Exposed> exposed_;  // images that wait for their read-out
   sc_core::sc_event go_on_;
+  LostRows lost_;    // of the image under way
   std::int64_t at_;  // bytes of the image under way that have been handed on
   Cycles begin_{0};  // of its read-out
   Cycles free_{0};   // end of its read-out

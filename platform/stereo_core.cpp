@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -55,7 +56,12 @@ StereoCore::StereoCore(const sc_core::sc_module_name& name, const MachineConfig&
       dma_right_("dma_right", engine_config(config.dma.right), clock),
       dma_map_("dma_map", engine_config(config.dma.map), clock),
       dma_output_("dma_output", engine_config(config.dma.output), clock),
-      pipeline_("pipeline", config, map.map, map.tiles, {clock, dataflow, map.tiles.width, input.height}) {
+      pipeline_("pipeline", config, map.map, map.tiles, {clock, dataflow, map.tiles.width, input.height}),
+      early_rows_(config.link.enabled
+                      ? std::min(config.link.early_start_rows, static_cast<std::uint32_t>(input.height))
+                      : 0),
+      output_burst_(config.dma.output.burst_bytes) {
+  if (early_rows_ > 0) output_progress_ = std::make_shared<TransferProgress>(dataflow);
   check_whole_bytes(format_, input.width, map.tiles);
   pipeline_.bind(dma_left_.out_bursts, dma_right_.out_bursts, dma_map_.out_bursts, dma_output_.in_bursts);
   if (pipeline_.store().keeps_rows()) {
@@ -85,23 +91,46 @@ void StereoCore::start_input(const CoreJob& job) {
     if (map_.tiles.tiles.size() > 1) image.pitch = bytes(input_.width);
     if (&tile == &map_.tiles.tiles.back()) image.done = read;
     const std::uint64_t column = bytes(tile.begin);
-    image.address = job.left + column;
-    dma_left_.start(image);
-    image.address = job.right + column;
-    dma_right_.start(image);
+    const auto read_image = [&](DmaReader& dma, std::uint64_t address, const ImageSource& source) {
+      image.address = address + column;
+      image.behind = source.progress;
+      // A row is read when all of it is there, in all tiles.
+      image.needed = [source, row = bytes(map_.tiles.width),
+                      whole = bytes(input_.width)](std::uint64_t last_byte) {
+        return source.bursts_until((last_byte + row - 1) / row * whole);
+      };
+      dma.start(image);
+    };
+    read_image(dma_left_, job.left, job.left_source);
+    read_image(dma_right_, job.right, job.right_source);
   }
   dma_map_.start({job.map, map_.map.row_bytes, job.values, nullptr});
 }
 
-void StereoCore::start_output(const CoreJob& job) {
+DmaJob StereoCore::output_job(const Tile& tile) const {
   const auto output_bytes = [this](int pixels) { return OutputPacking::row_bytes(pixels, output_left_); };
+  DmaJob result;
+  result.address = output_bytes(tile.keep_begin);
+  result.row_bytes = equal_rows(input_.height, output_bytes(tile.keep_end - tile.keep_begin));
+  if (map_.tiles.tiles.size() > 1) result.pitch = output_bytes(input_.width);
+  return result;
+}
+
+std::uint64_t StereoCore::output_bursts_until(std::uint64_t rows) const {
+  const DmaJob job = output_job(map_.tiles.tiles.back());
+  return job.bursts_until(rows * job.row_bytes.front(), output_burst_);
+}
+
+void StereoCore::start_output(const CoreJob& job) {
   for (const Tile& tile : map_.tiles.tiles) {
-    DmaJob result;
-    result.address = job.output + output_bytes(tile.keep_begin);
-    result.row_bytes = equal_rows(input_.height, output_bytes(tile.keep_end - tile.keep_begin));
+    DmaJob result = output_job(tile);
+    result.address += job.output;
     result.values = job.values;
-    if (map_.tiles.tiles.size() > 1) result.pitch = output_bytes(input_.width);
-    if (&tile == &map_.tiles.tiles.back()) result.done = job.written;
+    if (&tile == &map_.tiles.tiles.back()) {
+      result.done = job.written;
+      result.progress = output_progress_;
+      if (job.early) result.marks = {{std::uint64_t{early_rows_} * result.row_bytes.front(), job.early}};
+    }
     dma_output_.start(std::move(result));
   }
 }

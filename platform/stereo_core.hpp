@@ -15,6 +15,16 @@
 
 namespace parallax {
 
+/// A writer that has not finished what the core is to read; see DmaJob::behind.
+struct ImageSource {
+  std::shared_ptr<TransferProgress> progress;  ///< null: all of the image is in memory
+  std::uint64_t bursts_before = 0;             ///< that the writer had written before this image
+  Bytes burst{0};                              ///< of the writer
+
+  /// Bursts after which the first `bytes` bytes of the image are there.
+  std::uint64_t bursts_until(std::uint64_t bytes) const { return bursts_before + burst_count(bytes, burst); }
+};
+
 /// A frame for the core, by where its buffers lie in memory.
 struct CoreJob {
   std::uint64_t left = 0;   ///< address of the left image, as the camera wrote it
@@ -22,10 +32,14 @@ struct CoreJob {
   std::uint64_t map = 0;    ///< address of the compressed map\'s bytes
   bool values = true;       ///< false: timing only
   AlgorithmParameters parameters{};
-  std::uint64_t output = 0;       ///< address of the results
-  std::uint64_t buffer = 0;       ///< address of what the matcher keeps in memory (MatcherStore)
+  std::uint64_t output = 0;  ///< address of the results
+  std::uint64_t buffer = 0;  ///< address of what the matcher keeps in memory (MatcherStore)
+  ImageSource left_source{};
+  ImageSource right_source{};
   std::function<void()> read;     ///< called when both images have been read
   std::function<void()> written;  ///< called when the results are in memory
+  /// Called, if there is one, when link.early_start_rows of the results are there.
+  std::function<void()> early{};
 };
 
 /// What stays the same from frame to frame.
@@ -46,6 +60,12 @@ class StereoCore final : public sc_core::sc_module {
   /// Queues a frame.
   void start(const CoreJob& job);
 
+  /// For who reads results while they come: told of the bursts of the last tile;
+  /// null unless a link sends early (link.early_start_rows).
+  const std::shared_ptr<TransferProgress>& output_progress() const { return output_progress_; }
+  /// Bursts of the frame, counted so, that hold its first `rows` rows.
+  std::uint64_t output_bursts_until(std::uint64_t rows) const;
+
   Pipeline& pipeline() { return pipeline_; }
   const Pipeline& pipeline() const { return pipeline_; }
   BusMaster& left_master() { return dma_left_.master; }
@@ -62,6 +82,7 @@ class StereoCore final : public sc_core::sc_module {
   void start_input(const CoreJob& job);
   void start_output(const CoreJob& job);
   void start_store(const CoreJob& job);
+  DmaJob output_job(const Tile& tile) const;
 
   struct StorePorts {
     StorePorts(const std::string& what, const DmaPortConfig& config, const ClockDomain& clock,
@@ -81,6 +102,9 @@ class StereoCore final : public sc_core::sc_module {
   DmaReader dma_map_;
   DmaWriter dma_output_;
   Pipeline pipeline_;
+  const std::uint32_t early_rows_;
+  const Bytes output_burst_;
+  std::shared_ptr<TransferProgress> output_progress_;
   std::unique_ptr<StorePorts> rows_;   // if the matcher keeps rows
   std::unique_ptr<StorePorts> frame_;  // if it keeps a frame
 };

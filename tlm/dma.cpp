@@ -20,6 +20,11 @@ std::uint64_t burst_count(std::uint64_t bytes, Bytes burst) {
   return (bytes + size - 1) / size;
 }
 
+std::uint64_t DmaJob::bursts_until(std::uint64_t bytes, Bytes burst) const {
+  const std::uint64_t piece = std::max<std::uint64_t>(1, piece_bytes());
+  return bytes / piece * burst_count(piece, burst) + burst_count(bytes % piece, burst);
+}
+
 DmaEngine::DmaEngine(const sc_core::sc_module_name& name, const DmaEngineConfig& config,
                      const ClockDomain& clock)
     : sc_module(name),
@@ -59,9 +64,11 @@ bool DmaEngine::have_burst() {
     piece_end_ = piece_;
     piece_address_ = job_.address;
     free_ = std::max(free_, clock_.now());
-    const std::uint64_t pieces = piece_ == 0 ? 0 : bytes_ / piece_;
-    if (job_.begun && piece_ > 0) ends_.push_back({requested_ + 1, std::move(job_.begun), last_answer_});
-    const std::uint64_t last = requested_ + pieces * burst_count(piece_, Bytes(burst_));
+    for (DmaJob::Mark& mark : job_.marks) {
+      ends_.push_back({requested_ + job_.bursts_until(std::min(mark.bytes, bytes_), Bytes(burst_)),
+                       std::move(mark.reached), last_answer_});
+    }
+    const std::uint64_t last = requested_ + job_.bursts_until(bytes_, Bytes(burst_));
     ends_.push_back({last, std::move(job_.done), last_answer_});
     if (job_.progress) told_.push_back({requested_ + 1, last, job_.progress});
     finish_jobs();  // it may be without bytes

@@ -43,7 +43,11 @@ struct DmaJob {
   std::function<void()> done;            ///< called when the last burst is answered
   std::uint64_t pitch =
       0;  ///< bytes from one row's begin to the next one's, the rows being equally long; or 0
-  std::function<void()> begun{};  ///< called when the first burst is answered
+  struct Mark {
+    std::uint64_t bytes = 0;        ///< from the transfer's begin
+    std::function<void()> reached;  ///< called when the bursts that hold these are answered
+  };
+  std::vector<Mark> marks{};  ///< ascending
   bool downwards =
       false;  ///< the last burst first; of one piece that is a whole number of bursts, without values
   std::shared_ptr<TransferProgress> progress{};  ///< told of each burst that is answered
@@ -56,6 +60,8 @@ struct DmaJob {
   std::uint64_t bytes() const;
   /// Bytes of a piece; the transfer's own where it is one piece.
   std::uint64_t piece_bytes() const;
+  /// Bursts that hold the first `bytes` bytes.
+  std::uint64_t bursts_until(std::uint64_t bytes, Bytes burst) const;
   /// Of the first byte of row `row`, which begins with byte `byte` of the transfer.
   std::uint64_t row_address(std::size_t row, std::uint64_t byte) const {
     return pitch == 0 ? address + byte : address + row * pitch;

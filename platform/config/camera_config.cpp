@@ -28,6 +28,17 @@ void CameraConfig::validate() const {
         fmt::format("camera.jitter_ns = {}: must be below the period of camera.frame_rate, {:.0f} ns",
                     jitter_ns, 1e9 / frame_rate));
   }
+  if (skew_ns > skew_limit_ns) {
+    throw UserError(fmt::format(
+        "camera.skew_ns = {}: must be at most camera.skew_limit_ns = {}, or no two images are one frame",
+        skew_ns, skew_limit_ns));
+  }
+  if (fault != CameraFault::kNone && early_start_rows > 0) {
+    throw UserError(
+        fmt::format("camera.early_start_rows = {}: must be 0 with a camera.fault, which shows when the core "
+                    "has begun the frame",
+                    early_start_rows));
+  }
 }
 
 void describe(Schema& schema, CameraConfig& config) {
@@ -52,6 +63,38 @@ void describe(Schema& schema, CameraConfig& config) {
                  chosen("a perfect trigger"));
   schema.integer("camera.jitter_seed", config.jitter_seed, {0, 4'294'967'295}, "seed",
                  "Seed of these delays: the same seed gives the same dates.", chosen("any"));
+  schema.integer("camera.exposure_ns", config.exposure_ns, {0, 1'000'000'000}, "ns",
+                 "Exposure time, before the read-out begins. With a frame rate it must fit into the period.",
+                 chosen("no light is simulated; matters where it limits the rate"));
+  schema.boolean("camera.overlap", config.overlap,
+                 "Whether the sensors expose while the frame before is read out.",
+                 chosen("usual for global shutters"));
+  schema.integer("camera.skew_ns", config.skew_ns, {0, 1'000'000'000}, "ns",
+                 "How much later than the left sensor the right one ends its exposure.",
+                 chosen("a common trigger"));
+  schema.integer("camera.skew_limit_ns", config.skew_limit_ns, {0, 1'000'000'000}, "ns",
+                 "Largest skew of two images that count as one frame; beyond it they are out of step.",
+                 chosen("not published; a rolling scene moves little in a millisecond"));
+  schema.choice(
+      "camera.fault", config.fault,
+      {{"none", CameraFault::kNone},
+       {"short_frame", CameraFault::kShortFrame},
+       {"missing_row", CameraFault::kMissingRow},
+       {"out_of_step", CameraFault::kOutOfStep}},
+      "What is wrong with every camera.fault_every-th frame: the left sensor stops early, rows of it "
+      "are lost in the middle, or the right one is late by twice camera.skew_limit_ns. Such a frame is "
+      "flagged in the registers and not processed.",
+      chosen("a perfect cable"));
+  schema.integer("camera.fault_every", config.fault_every, {2, 1'000'000}, "frames",
+                 "Every so many frames, one is faulty if there is a camera.fault.", chosen("any"));
+  schema.integer("camera.fault_rows", config.fault_rows, {1, 65535}, "rows",
+                 "Rows that a short frame, or one with missing rows, lacks; all but one at most.",
+                 chosen("any"));
+  schema.integer(
+      "camera.early_start_rows", config.early_start_rows, {0, 65536}, "rows",
+      "Rows of both images in memory with which software is told of the frame, so that the core may "
+      "begin; it reads behind the cameras, row by row. 0: the whole frame.",
+      chosen("not published; the device's registers count bytes available"));
   schema.integer("camera.bytes_per_second", config.bytes_per_second, {1, 1'000'000'000'000}, "B/s",
                  "Rate of the cable of each sensor; the slower of this and the pixel clock sets the pace.",
                  inferred("USB 3.0: 5 Gbit/s less line code and protocol"));

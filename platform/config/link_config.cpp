@@ -26,6 +26,11 @@ void describe(Schema& schema, LinkConfig& config) {
   schema.integer("link.output_buffers", config.output_buffers, {1, 64}, "frames",
                  "Frames of results that the memory holds on their way to the host.",
                  chosen("not published"));
+  schema.integer(
+      "link.early_start_rows", config.early_start_rows, {0, 65536}, "rows",
+      "Rows of results in memory (of an image of several tiles: of the last one) with which sending "
+      "begins; it goes on behind the core, row by row. 0: the whole frame.",
+      chosen("not published; the device's registers count bytes available"));
   schema.integer("link.line_rate", config.line_rate, {1, 1'000'000'000'000}, "bit/s", "Bit rate of the wire.",
                  stated("paper, section Architecture: gigabit Ethernet"));
   schema.integer("link.packet_payload_bytes", config.packet_payload_bytes, {1, 65536}, "B",

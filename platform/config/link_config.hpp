@@ -14,6 +14,7 @@ struct LinkConfig {
   bool enabled = true;                     ///< off: results stay in the memory
   bool color_output = false;               ///< whether the left image goes out in colour; own choice
   std::uint32_t output_buffers = 3;        ///< frames of results that the memory holds, 1 to 64; own choice
+  std::uint32_t early_start_rows = 0;      ///< rows of results with which sending starts; 0 = all; own choice
   std::int64_t line_rate = 1'000'000'000;  ///< bit/s, 1 to 10^12; S
   std::uint32_t packet_payload_bytes = 1468;  ///< result bytes per packet, 1 to 65536; S
   std::uint32_t packet_wire_bytes = 1538;     ///< bytes per packet on the wire, 1 to 65536; S

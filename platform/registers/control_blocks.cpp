@@ -101,7 +101,7 @@ bool ControlBlocks::judge_start() {
         "size");
   }
   for (const char* image : {"left", "right"}) {
-    require(bank.get("dma", std::string(image) + "_bytes_available", "bytes") >= facts_.image_bytes, "bytes");
+    require(bank.get("dma", std::string(image) + "_bytes_available", "bytes") >= facts_.start_bytes, "bytes");
   }
   const auto in_memory = [this](const char* name, std::uint64_t bytes) {
     const std::uint64_t begin = address(name);
@@ -148,6 +148,14 @@ void ControlBlocks::frame_done() {
   bank.set("dma", "status", "frames_done", frames_done_ & 0xFFFFU);
   bank.set("dma", "status", "busy", under_way_ > 0 ? 1 : 0);
   bank.set("dma", "status", "ready", 1);
+}
+
+void ControlBlocks::frame_faulty(CameraFault fault) {
+  const char* bit = fault == CameraFault::kShortFrame   ? "short_frame"
+                    : fault == CameraFault::kMissingRow ? "missing_row"
+                                                        : "out_of_step";
+  bank.set("dma", "input_errors", bit, 1);
+  bank.set("dma", "input_errors", "frames", ++frames_faulty_ & 0xFFFFU);
 }
 
 }  // namespace parallax

@@ -28,6 +28,7 @@ struct CoreFacts {
   int width = 0;                  ///< px
   int height = 0;                 ///< px
   std::uint64_t image_bytes = 0;  ///< of one image in memory
+  std::uint64_t start_bytes = 0;  ///< of an image, that must be in memory for a start
   std::uint64_t map_bytes = 0;
   std::uint64_t output_bytes = 0;
   std::uint64_t buffer_bytes = 0;  ///< 0: the matcher keeps nothing in memory
@@ -58,6 +59,8 @@ class ControlBlocks final : public sc_core::sc_module {
 
   /// The results of the oldest frame under way are in memory.
   void frame_done();
+  /// A frame of the cameras was found to have a fault; nobody starts the core with it.
+  void frame_faulty(CameraFault fault);
 
  private:
   void start(std::uint32_t triggers);
@@ -74,6 +77,7 @@ class ControlBlocks final : public sc_core::sc_module {
   AlgorithmParameters parameters_;  // the last possible ones
   std::uint32_t under_way_ = 0;
   std::uint32_t frames_done_ = 0;
+  std::uint32_t frames_faulty_ = 0;
   std::uint64_t output_before_ = 0;  // bytes written before the frame
 };
 

@@ -100,8 +100,8 @@ bool CoreDriver::start(const FrameCommand& command, const CoreFacts& facts) {
   write_address("map", command.map);
   write_address("output", command.output);
   write_address("buffer", command.buffer);
-  write("dma", "left_bytes_available", static_cast<std::uint32_t>(facts.image_bytes));
-  write("dma", "right_bytes_available", static_cast<std::uint32_t>(facts.image_bytes));
+  write("dma", "left_bytes_available", static_cast<std::uint32_t>(facts.start_bytes));
+  write("dma", "right_bytes_available", static_cast<std::uint32_t>(facts.start_bytes));
   write("dma", "control", compose("dma", "control", {{"start", 1}}));
   return read("dma", "errors") == 0;
 }

@@ -71,14 +71,25 @@ std::vector<PartLoad> part_loads(const Machine& machine, const SteadyWindow& win
   }
 
   const ClockDomain& camera_clock = machine.camera_clock();
-  loads.push_back({"camera", "clocks.camera_hz",
-                   ratio(last.camera - first.camera, cycles_between(camera_clock, first.time, last.time)),
-                   camera_clock.seconds(machine.sensor().frame_time())});
+  PartLoad camera{"camera", "clocks.camera_hz",
+                  ratio(last.camera - first.camera, cycles_between(camera_clock, first.time, last.time)),
+                  camera_clock.seconds(machine.sensor().frame_time())};
+  if (config.camera.exposure_ns > 0) {
+    const double exposure = config.camera.exposure_ns * 1e-9;
+    camera.key = "camera.exposure_ns, clocks.camera_hz";
+    camera.busy = config.camera.overlap ? std::max(exposure, camera.busy) : exposure + camera.busy;
+    const std::int64_t read_out = last.cameras.taken - first.cameras.taken + last.cameras.faulty -
+                                  first.cameras.faulty + last.cameras.dropped - first.cameras.dropped;
+    camera.share =
+        std::min(1.0, static_cast<double>(read_out) * camera.busy / (last.time - first.time).to_seconds());
+  }
+  loads.push_back(camera);
   const double elapsed = (last.time - first.time).to_seconds();
   if (config.camera.frame_rate > 0) {
     // The cameras set the pace as far as their frames are taken.
     const std::int64_t triggers = last.cameras.triggers - first.cameras.triggers;
-    const std::int64_t taken = last.cameras.taken - first.cameras.taken;
+    const std::int64_t taken =
+        last.cameras.taken - first.cameras.taken + last.cameras.faulty - first.cameras.faulty;
     loads.push_back({"camera_frame_rate", "camera.frame_rate", ratio(Cycles(taken), Cycles(triggers)),
                      1.0 / config.camera.frame_rate});
   }

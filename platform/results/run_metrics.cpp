@@ -305,12 +305,24 @@ MetricGroup measure(const Machine& machine, const RunTotals& totals, int image_w
   const CameraCounts& cameras = machine.activities().back().cameras;
   camera.add({"dropped_frames", cameras.dropped, "frames", "Frames that found no frame buffer free.",
               "the whole run"});
+  camera.add({"faulty_frames", cameras.faulty, "frames",
+              "Frames that a camera fault spoilt, flagged and not processed.", "the whole run"});
   camera.add({"missed_triggers", cameras.missed, "triggers", "Triggers that found a sensor reading out.",
               "the whole run"});
   root.group("software")
       .add({"rejected_starts", machine.rejected_starts(), "starts",
             "Frames that the core did not take at once because of what its registers said.",
             "the whole run"});
+  const sc_core::sc_time before =
+      window.frames() > 0 ? machine.activities()[window.first].output_full : sc_core::SC_ZERO_TIME;
+  root.group("software")
+      .add({"waits_for_output_buffer",
+            seconds(machine.activities()[window.last].output_full - before) * 1e3 /
+                static_cast<double>(std::max<std::size_t>(1, window.frames())),
+            "ms",
+            "Time a frame in which the core could have been started but for its results: all buffers waited "
+            "to be sent.",
+            window.text});
   add_performance(root, machine, window);
   add_latency(root, machine, window);
   add_limit(root, machine, window);

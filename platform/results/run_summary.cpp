@@ -125,10 +125,11 @@ std::string summary(const MetricGroup& m) {
   text += fmt::format("                    {:.3f} ms from exposure to the host, first frame {:.3f} ms\n",
                       number(m, "latency/exposure_to_host_mean"),
                       number(m, "latency/exposure_to_host_first_frame"));
-  if (count("camera/dropped_frames") > 0 || count("camera/missed_triggers") > 0) {
+  if (count("camera/dropped_frames") + count("camera/missed_triggers") + count("camera/faulty_frames") > 0) {
     text += fmt::format(
-        "cameras             {} frames dropped (no buffer free), {} triggers missed (reading out)\n",
-        count("camera/dropped_frames"), count("camera/missed_triggers"));
+        "cameras             {} frames dropped (no buffer free), {} faulty, {} triggers missed (reading "
+        "out)\n",
+        count("camera/dropped_frames"), count("camera/faulty_frames"), count("camera/missed_triggers"));
   }
   text += limit_line(m);
   text += fmt::format("memory              {:.1f} of {:.0f} MB/s usable, {:.1f} %\n",

@@ -109,6 +109,15 @@ TEST_F(BadInput, Configuration) {
   EXPECT_EQ(pair_error("--set camera.frame_rate=1e-9")
                 .rfind("camera.frame_rate = 1e-09: must be 0 or at least 0.001 frames/s", 0),
             0U);
+  EXPECT_EQ(pair_error("--set camera.skew_ns=2000000"),
+            "camera.skew_ns = 2000000: must be at most camera.skew_limit_ns = 1000000, or no two images are "
+            "one frame "
+            "(camera.skew_limit_ns: default, camera.skew_ns: --set camera.skew_ns=2000000)");
+  EXPECT_EQ(pair_error("--set camera.early_start_rows=5 --set camera.fault=missing_row"),
+            "camera.early_start_rows = 5: must be 0 with a camera.fault, which shows when the core has begun "
+            "the frame "
+            "(camera.early_start_rows: --set camera.early_start_rows=5, camera.fault: --set "
+            "camera.fault=missing_row)");
   EXPECT_EQ(pair_error("--set camera.jitter_ns=5"),
             "camera.jitter_ns = 5: needs a camera.frame_rate above 0, exposures have no dates to miss "
             "(camera.jitter_ns: --set camera.jitter_ns=5)");

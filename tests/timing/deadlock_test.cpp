@@ -65,9 +65,9 @@ TEST(Deadlock, NamesTheCircleOfWaits) {
   EXPECT_NE(text.find("n3 waits on stream s3 (empty, depth 2) for n2\n"), std::string::npos) << text;
 }
 
-// Node 1 forks to the join 3 and to 4, and has in its pipeline the token that the join waits for, since 4 waits for
-// the join before it reads. That node 1's next firing waits for the source, which waits for 2, which waits for the
-// join, closes a circle too, but holds nobody up.
+// Node 1 forks to the join 3 and to 4, and has in its pipeline the token that the join waits for, since 4
+// waits for the join before it reads. That node 1's next firing waits for the source, which waits for 2,
+// which waits for the join, closes a circle too, but holds nobody up.
 TEST(Deadlock, NamesNoWaitOfAStageThatNobodyWaitsFor) {
   constexpr PortMask kNone = 0;
   const auto stage = [](std::uint32_t latency, const std::vector<GraphPart>& parts) {
@@ -209,11 +209,10 @@ TEST(Deadlock, TheProgramNamesItAndFails) {
   const Ended ended = run_program("--size 160x48 --frames 1 --set streams.left_texture.depth=64");
   EXPECT_EQ(ended.status, 1);
   EXPECT_NE(ended.text.find("parallax: error: the machine is deadlocked"), std::string::npos) << ended.text;
-  EXPECT_NE(
-      ended.text.find(
-          "machine.core.pipeline.rectification waits on stream machine.core.pipeline.left_texture (full, depth 64) "
-          "for machine.core.pipeline.texture\n"),
-      std::string::npos)
+  EXPECT_NE(ended.text.find("machine.core.pipeline.rectification waits on stream "
+                            "machine.core.pipeline.left_texture (full, depth 64) "
+                            "for machine.core.pipeline.texture\n"),
+            std::string::npos)
       << ended.text;
   EXPECT_NE(ended.text.find("\n  streams.left_texture.depth = 128 would free it (now 64)\n"),
             std::string::npos)

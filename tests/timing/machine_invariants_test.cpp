@@ -87,8 +87,10 @@ RC_GTEST_PROP(MachineInvariants, SharesAreCompleteAndPossible, ()) {
 // A memory that is always busy, for seven ports whose shares, added up as fractions, are more than 1.
 TEST(MachineInvariants, ABusThatIsAlwaysTakenIsTakenFor100Percent) {
   MachineCase c = random_machine(906483134, Contention::kAny);
-  c.others.insert(c.others.end(), {"camera.format=mono8", "link.color_output=false", "matching.path_storage=on_chip",
-                                    "matching.paths=w,nw,n,ne"});
+  c.others.insert(c.others.end(),
+                  {"camera.format=mono8", "link.color_output=false", "matching.path_storage=on_chip",
+                   "matching.paths=w,nw,n,ne", "camera.early_start_rows=0", "camera.fault=none",
+                   "camera.skew_ns=0", "camera.exposure_ns=0", "link.early_start_rows=0"});
   EXPECT_EQ(after_run(c,
                       [&](const Machine& machine) {
                         return check_shares(machine, c) +

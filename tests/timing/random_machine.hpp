@@ -95,6 +95,18 @@ inline MachineCase random_machine(std::uint32_t seed, Contention contention) {
   if (number(0, 3) == 0) c.others.emplace_back("matching.path_storage=memory");
   if (number(0, 3) == 0) c.others.emplace_back("matching.paths=w,n,ne,s");
   set("dma.buffer.outstanding", number(1, 8));
+  if (number(0, 2) == 0) set("link.early_start_rows", number(1, 60));
+  if (number(0, 2) == 0) {
+    set("camera.early_start_rows", number(1, 60));
+  } else if (number(0, 2) == 0) {
+    const char* faults[] = {"short_frame", "missing_row", "out_of_step"};
+    c.others.push_back(std::string("camera.fault=") + faults[number(0, 2)]);
+    set("camera.fault_every", number(2, 5));
+    set("camera.skew_limit_ns", number(1, 50) * 1000);
+  }
+  if (number(0, 3) == 0) set("camera.skew_ns", number(1, 1000));
+  if (number(0, 3) == 0) set("camera.exposure_ns", number(1, 100000));
+  if (number(0, 3) == 0) c.others.emplace_back("camera.overlap=false");
   return c;
 }
 

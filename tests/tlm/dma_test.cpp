@@ -2,6 +2,7 @@
 #include "tlm/dma.hpp"
 
 #include <gtest/gtest.h>
+#include <tlm_utils/simple_target_socket.h>
 
 #include <algorithm>
 #include <numeric>
@@ -73,11 +74,28 @@ class BurstSource final : public sc_core::sc_module {
   std::uint64_t bursts_;
 };
 
+/// Answers at once, and notes the addresses.
+class RecordedMemory final : public sc_core::sc_module {
+ public:
+  using Log = std::vector<std::uint64_t>;
+  tlm_utils::simple_target_socket<RecordedMemory> socket{"socket"};
+  RecordedMemory(const sc_core::sc_module_name& name, Log& log) : sc_module(name), log_(log) {
+    socket.register_b_transport(this, &RecordedMemory::b_transport);
+  }
+
+ private:
+  void b_transport(::tlm::tlm_generic_payload& payload, sc_core::sc_time&) {
+    log_.push_back(payload.get_address());
+    payload.set_response_status(::tlm::TLM_OK_RESPONSE);
+  }
+  Log& log_;
+};
+
 template <class MemoryModel>
 struct ReaderBench {
   template <class... Arguments>
   ReaderBench(const DmaEngineConfig& config, std::uint64_t bursts, std::int64_t pause,
-              const Arguments&... memory_arguments)
+              Arguments&&... memory_arguments)
       : memory("memory", memory_arguments...),
         dataflow("dataflow"),
         reader("reader", config, clock),
@@ -251,6 +269,57 @@ TEST(DmaReader, RowsWithAPitchArePiecesOfTheirOwn) {
   EXPECT_EQ(b.memory.statistics(0).read_bytes, 3u * 40 + 32);
 }
 
+TEST(DmaReader, DoesNotOvertakeTheWriterBehindWhichItGoes) {
+  // Alone, it would request in cycles 0 to 3. The writer's answers come in 10, 20, 20 and 40; a burst takes
+  // two cycles on the bus and three of latency.
+  ReaderBench<BusMemoryTarget> b(engine(16, 4, 8), 4, 0, plain_memory(), memory_clock());
+  const auto progress = std::make_shared<TransferProgress>(b.dataflow);
+  DmaJob job{0, {64}, false, nullptr};
+  job.behind = progress;
+  job.needed = [](std::uint64_t last_byte) { return last_byte / 16; };
+  b.reader.start(job);
+  Thread writing("writing", [&] {
+    progress->answered(b.clock.time_of(Cycles(10)));  // known ahead
+    sc_core::wait(b.clock.time_of(Cycles(20)));
+    progress->answered(sc_core::sc_time_stamp());
+    progress->answered(sc_core::sc_time_stamp());
+    progress->answered(b.clock.time_of(Cycles(40)));
+  });
+  sc_core::sc_start();
+  EXPECT_EQ(b.dates.written, Dates({15, 25, 27, 45}));
+}
+
+TEST(DmaReader, WaitsForARowThatIsBeingWritten) {
+  ReaderBench<BusMemoryTarget> b(engine(16, 4, 8), 4, 0, plain_memory(), memory_clock());
+  const auto progress = std::make_shared<TransferProgress>(b.dataflow);
+  const Values bytes = pattern(64);
+  DmaJob job{0, {32, 32}, true, nullptr};
+  job.behind = progress;
+  job.needed = [](std::uint64_t last_byte) { return (last_byte + 31) / 32; };
+  b.reader.start(job);
+  Thread writing("writing", [&] {
+    for (std::size_t row = 0; row < 2; ++row) {
+      progress->answered(b.clock.time_of(Cycles(50 * static_cast<int>(row) + 50)));  // ahead of its bytes
+      sc_core::wait(sc_core::sc_time(400, sc_core::SC_NS));
+      fill(b.reader.master, Values(bytes.begin(), bytes.begin() + 32 * static_cast<int>(row + 1)));
+      sc_core::wait(sc_core::sc_time(100, sc_core::SC_NS));
+    }
+  });
+  sc_core::sc_start();
+  EXPECT_EQ(b.dates.written, Dates({55, 57, 105, 107}));
+  EXPECT_EQ(b.sink.values, bytes);
+}
+
+TEST(DmaReader, ReadsDownwards) {
+  RecordedMemory::Log log;
+  ReaderBench<RecordedMemory> b(engine(16, 1, 8), 3, 0, log);
+  DmaJob job{256, {48}, false, nullptr};
+  job.downwards = true;
+  b.reader.start(job);
+  sc_core::sc_start();
+  EXPECT_EQ(log, RecordedMemory::Log({256 + 32, 256 + 16, 256}));
+}
+
 TEST(DmaReader, AnErrorOfTheMemoryIsReported) {
 #ifdef PARALLAX_SANITIZED
   GTEST_SKIP() << "the sanitizer does not follow an exception through the stacks of the kernel's threads";
@@ -297,7 +366,7 @@ template <class MemoryModel>
 struct WriterBench {
   template <class... Arguments>
   WriterBench(const DmaEngineConfig& config, const Values& values, std::uint64_t bursts,
-              const Arguments&... memory_arguments)
+              Arguments&&... memory_arguments)
       : memory("memory", memory_arguments...),
         dataflow("dataflow"),
         writer("writer", config, clock),
