@@ -112,7 +112,7 @@ TEST_F(BadInput, Configuration) {
   EXPECT_EQ(pair_error("--set camera.skew_ns=2000000"),
             "camera.skew_ns = 2000000: must be at most camera.skew_limit_ns = 1000000, or no two images are "
             "one frame "
-            "(camera.skew_limit_ns: default, camera.skew_ns: --set camera.skew_ns=2000000)");
+            "(camera.skew_ns: --set camera.skew_ns=2000000)");
   EXPECT_EQ(pair_error("--set camera.early_start_rows=5 --set camera.fault=missing_row"),
             "camera.early_start_rows = 5: must be 0 with a camera.fault, which shows when the core has begun "
             "the frame "

@@ -60,7 +60,7 @@ TEST(RegisterMap, OffsetsAreThoseOfThePublishedOrder) {
     }
   }
   const std::vector<Register>& dma = register_blocks()[0].registers;
-  ASSERT_EQ(dma.size(), 21u);
+  ASSERT_EQ(dma.size(), 22u);
   for (std::size_t i = 0; i < dma.size(); ++i) EXPECT_EQ(dma[i].offset, 4 * i) << dma[i].name;
   EXPECT_EQ(register_blocks()[1].registers.back().offset, 0x28u);
 }
