@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "platform/commands/run_options.hpp"
+#include "platform/input/run_options.hpp"
 
 namespace parallax {
 

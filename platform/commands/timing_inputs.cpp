@@ -3,9 +3,9 @@
 
 #include <utility>
 
-#include "platform/commands/run_input.hpp"
 #include "platform/input/image_padding.hpp"
 #include "platform/input/rectification_choice.hpp"
+#include "platform/input/run_input.hpp"
 
 namespace parallax {
 

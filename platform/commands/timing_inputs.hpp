@@ -5,8 +5,8 @@
 #include <memory>
 #include <tuple>
 
-#include "platform/commands/run_options.hpp"
 #include "platform/input/frame_source.hpp"
+#include "platform/input/run_options.hpp"
 #include "platform/timing_evaluator.hpp"
 
 namespace parallax {

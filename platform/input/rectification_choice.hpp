@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "modules/map_codec.hpp"
-#include "platform/commands/run_options.hpp"
 #include "platform/input/frame_source.hpp"
+#include "platform/input/run_options.hpp"
 
 namespace parallax {
 

@@ -7,10 +7,10 @@
 #include <map>
 #include <memory>
 
-#include "platform/commands/run_input.hpp"
 #include "platform/config/preset.hpp"
 #include "platform/input/image_padding.hpp"
 #include "platform/input/rectification_choice.hpp"
+#include "platform/input/run_input.hpp"
 #include "platform/timing_evaluator.hpp"
 #include "tlm/error.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "platform/commands/run_input.hpp"
+#include "platform/input/run_input.hpp"
 
 #include <fmt/format.h>
 

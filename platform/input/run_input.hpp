@@ -3,9 +3,9 @@
 
 #include <memory>
 
-#include "platform/commands/run_options.hpp"
 #include "platform/config/machine_config.hpp"
 #include "platform/input/frame_source.hpp"
+#include "platform/input/run_options.hpp"
 
 namespace parallax {
 
