@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "platform/commands/command_context.hpp"
+#include "platform/commands/compare_runs_command.hpp"
 #include "platform/commands/config_command.hpp"
 #include "platform/commands/map_command.hpp"
 #include "platform/commands/memory_command.hpp"
@@ -129,6 +130,7 @@ int run_command_line(int argc, const char* const* argv, std::ostream& out, std::
   add_scene_command(app, context);
   add_memory_command(app, context);
   add_registers_command(app, context);
+  add_compare_runs_command(app, context);
   add_validate_command(app, context);
 
   try {

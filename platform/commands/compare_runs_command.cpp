@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "platform/commands/compare_runs_command.hpp"
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <ostream>
+#include <string>
+
+#include "platform/commands/command_context.hpp"
+#include "platform/commands/common_options.hpp"
+#include "platform/results/run_comparison.hpp"
+
+namespace parallax {
+namespace {
+
+struct CompareOptions {
+  std::string a;
+  std::string b;
+  bool all = false;
+  bool json = false;
+};
+
+}  // namespace
+
+void add_compare_runs_command(CLI::App& app, CommandContext& context) {
+  const auto options = std::make_shared<CompareOptions>();
+  CLI::App& command = *app.add_subcommand(
+      "compare-runs", "What changed between two runs: configuration, results, stage by stage");
+  command.add_option("A", options->a, "Folder of a run's results, or its timing.json")->required();
+  command.add_option("B", options->b, "Likewise, of the other run")->required();
+  command.add_flag("--all", options->all, "Every number that changed");
+  add_json_option(command, options->json);
+  command.callback([options, &context] {
+    context.action = [options, &context] {
+      const RunComparison comparison = compare(read_run_report(options->a), read_run_report(options->b));
+      if (options->json) {
+        context.out << to_json(comparison).dump(2) << '\n';
+      } else if (context.verbosity != Verbosity::kQuiet) {
+        context.out << to_text(comparison, options->all);
+      }
+      return 0;
+    };
+  });
+}
+
+}  // namespace parallax

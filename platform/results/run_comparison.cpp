@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "platform/results/run_comparison.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+#include <map>
+#include <optional>
+#include <utility>
+
+namespace parallax {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Difference = RunComparison::Difference;
+
+struct Leaf {
+  Json value;
+  std::string unit;
+};
+using Leaves = std::vector<std::pair<std::string, Leaf>>;
+
+bool is_metric(const Json& tree) {
+  return tree.is_object() && tree.contains("value") && tree.contains("unit");
+}
+
+void gather(const Json& tree, const std::string& path, Leaves& leaves) {
+  if (is_metric(tree)) {
+    leaves.push_back({path, {tree.at("value"), tree.at("unit").is_string() ? tree.at("unit") : ""}});
+  } else if (tree.is_object()) {
+    for (const auto& [name, child] : tree.items())
+      gather(child, path.empty() ? name : path + "/" + name, leaves);
+  } else {
+    leaves.push_back({path, {tree, ""}});
+  }
+}
+
+Leaves leaves_of(const Json& tree) {
+  Leaves leaves;
+  gather(tree, "", leaves);
+  return leaves;
+}
+
+// In the order of the first, what only the second has after it.
+std::vector<Difference> differences(const Leaves& a, const Leaves& b) {
+  std::map<std::string, const Leaf*> of_b;
+  for (const auto& [name, leaf] : b) of_b[name] = &leaf;
+  std::vector<Difference> all;
+  for (const auto& [name, leaf] : a) {
+    const auto found = of_b.find(name);
+    if (found == of_b.end()) {
+      all.push_back({name, leaf.value, nullptr, leaf.unit});
+      continue;
+    }
+    if (found->second->value != leaf.value)
+      all.push_back({name, leaf.value, found->second->value, leaf.unit});
+    of_b.erase(found);
+  }
+  for (const auto& [name, leaf] : b) {
+    if (of_b.count(name) > 0) all.push_back({name, nullptr, leaf.value, leaf.unit});
+  }
+  return all;
+}
+
+Json without(Json tree, std::initializer_list<const char*> groups) {
+  for (const char* group : groups) tree.erase(group);
+  return tree;
+}
+
+// In percent; none where a share changes, or from or to nothing.
+std::optional<double> change(const Difference& d) {
+  if (!d.a.is_number() || !d.b.is_number() || d.unit == "%") return std::nullopt;
+  const auto a = d.a.get<double>();
+  if (a == 0) return std::nullopt;
+  return 100 * (d.b.get<double>() / a - 1);
+}
+
+std::string text_of(const Json& value, const std::string& unit) {
+  if (value.is_null()) return "-";
+  if (value.is_number_float())
+    return fmt::format("{:.{}f}{}", value.get<double>(), unit == "%" ? 1 : 3, unit.empty() ? "" : " " + unit);
+  std::string text = value.is_string() ? value.get<std::string>() : value.dump();
+  constexpr std::size_t kLongest = 40;
+  if (text.size() > kLongest) text = text.substr(0, kLongest - 3) + "...";
+  return unit.empty() ? text : text + " " + unit;
+}
+
+std::string line(const Difference& d) {
+  const std::optional<double> percent = change(d);
+  return fmt::format("  {:<44} {:>22} {:>22}{}\n", d.name, text_of(d.a, d.unit), text_of(d.b, d.unit),
+                     percent ? fmt::format(" {:>+8.1f} %", *percent) : "");
+}
+
+// What a person asks first.
+bool is_headline(const std::string& name) {
+  for (const char* prefix : {"input/", "performance/", "limit/", "quality/"}) {
+    if (name.rfind(prefix, 0) == 0 && name.find("utilisation_by_part") == std::string::npos) return true;
+  }
+  for (const char* wanted :
+       {"latency/first_pixel_mean", "latency/last_pixel_mean", "latency/exposure_to_host_mean",
+        "latency/exposure_to_host_p99", "camera/dropped_frames", "camera/faulty_frames",
+        "camera/missed_triggers", "memory/bandwidth", "memory/usable_bandwidth", "memory/at_work",
+        "memory/share", "memory/row_hits", "energy/power_total", "energy/frame_total"}) {
+    if (name == wanted) return true;
+  }
+  return false;
+}
+
+bool matches(const std::string& name, const std::string& group, std::initializer_list<const char*> metrics) {
+  if (name.rfind(group, 0) != 0) return false;
+  const std::string metric = name.substr(name.rfind('/') + 1);
+  return std::any_of(metrics.begin(), metrics.end(), [&](const char* wanted) { return metric == wanted; });
+}
+
+bool is_of_stage(const std::string& name) {
+  return matches(name, "stages/", {"utilisation", "starved_share", "blocked_share", "memory_share"});
+}
+
+bool is_of_port(const std::string& name) {
+  return std::count(name.begin(), name.end(), '/') == 2 &&
+         matches(name, "memory/", {"bandwidth", "latency_mean", "stalls"});
+}
+
+// By a point, or by a percent.
+bool is_noticeable(const Difference& d) {
+  if (!d.a.is_number() || !d.b.is_number()) return true;
+  const std::optional<double> percent = change(d);
+  return std::abs(percent.value_or(d.b.get<double>() - d.a.get<double>())) >= 1;
+}
+
+template <class Wanted>
+std::string section(const std::string& title, const std::vector<Difference>& all, Wanted wanted) {
+  std::string text;
+  for (const Difference& d : all) {
+    if (wanted(d)) text += line(d);
+  }
+  return text.empty() ? "" : title + "\n" + text;
+}
+
+Json to_json(const std::vector<Difference>& all) {
+  auto list = Json::array();
+  for (const Difference& d : all) {
+    Json entry{{"name", d.name}, {"a", d.a}, {"b", d.b}, {"unit", d.unit}};
+    if (const auto percent = change(d)) entry["change_percent"] = *percent;
+    list.push_back(std::move(entry));
+  }
+  return list;
+}
+
+}  // namespace
+
+RunComparison compare(const RunReport& a, const RunReport& b) {
+  RunComparison comparison{a.path, b.path, {}, {}};
+  const auto configuration = [](const RunReport& report) {
+    return report.tree.contains("configuration") ? leaves_of(report.tree.at("configuration")) : Leaves{};
+  };
+  comparison.configuration = differences(configuration(a), configuration(b));
+  const auto results = [](const RunReport& report) {
+    return leaves_of(without(report.tree, {"run", "configuration"}));
+  };
+  comparison.results = differences(results(a), results(b));
+  return comparison;
+}
+
+nlohmann::ordered_json to_json(const RunComparison& comparison) {
+  return {{"a", comparison.path_a},
+          {"b", comparison.path_b},
+          {"configuration", to_json(comparison.configuration)},
+          {"results", to_json(comparison.results)}};
+}
+
+std::string to_text(const RunComparison& comparison, bool all) {
+  const auto everything = [](const Difference&) { return true; };
+  const auto headline = [](const Difference& d) { return is_headline(d.name); };
+  const auto of_stage = [](const Difference& d) { return is_of_stage(d.name) && is_noticeable(d); };
+  const auto of_port = [](const Difference& d) { return is_of_port(d.name) && is_noticeable(d); };
+  std::string text = fmt::format("  {:<44} {:>22} {:>22}\n", "", "A", "B");
+  text += section("configuration", comparison.configuration, everything);
+  if (all) {
+    text += section("results", comparison.results, everything);
+  } else {
+    text += section("results", comparison.results, headline);
+    text += section("stages, by a point or more", comparison.results, of_stage);
+    text += section("memory ports, by a percent or more", comparison.results, of_port);
+  }
+  if (comparison.configuration.empty() && comparison.results.empty()) text = "no difference\n";
+  return text;
+}
+
+}  // namespace parallax

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "platform/results/run_report.hpp"
+
+namespace parallax {
+
+/// What is not the same in two runs.
+struct RunComparison {
+  struct Difference {
+    std::string name;          ///< "clocks/core_hz", "performance/frame_rate"
+    nlohmann::ordered_json a;  ///< null: not in that run
+    nlohmann::ordered_json b;
+    std::string unit;
+  };
+  std::string path_a;
+  std::string path_b;
+  std::vector<Difference> configuration;
+  std::vector<Difference> results;  ///< all metrics but those of this computer (run/...)
+};
+
+RunComparison compare(const RunReport& a, const RunReport& b);
+
+/// {"a", "b", "configuration": [...], "results": [...]}; a number has its change in percent where that means
+/// something.
+nlohmann::ordered_json to_json(const RunComparison& comparison);
+
+/// For a person: the configuration, what the run is about, then stage by stage and port by port. `all`: every
+/// metric instead.
+std::string to_text(const RunComparison& comparison, bool all);
+
+}  // namespace parallax

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace parallax {
+
+/// What a run has left behind: its timing.json.
+struct RunReport {
+  std::string path;             ///< of the file
+  nlohmann::ordered_json tree;  ///< as it is written (traces/metrics.hpp), with "configuration"
+};
+
+/// `path`: a folder of results, or the file itself. Throws UserError when there is none, when it is damaged,
+/// and when another version wrote it.
+RunReport read_run_report(const std::string& path);
+
+}  // namespace parallax
