@@ -90,6 +90,14 @@ std::vector<Relaxation> relaxations(const MachineConfig& config, const nlohmann:
                    "one iteration a cycle, pixel after pixel",
                    {"matching.interval=1", "matching.recurrence_latency=1"}});
   }
+  if (config.matching.path_storage == PathStorage::kMemory || (config.matching.paths & kSouthernPaths) != 0) {
+    all.push_back({"buffer_port",
+                   "8192 bit a cycle",
+                   {"dma.buffer.data_bits=8192",
+                    fmt::format("dma.buffer.burst_bytes={}",
+                                std::min((config.dma.buffer.burst_bytes + 1023) / 1024 * 1024, 4096U)),
+                    "dma.buffer.fifo_bytes=1048576"}});
+  }
   if (config.matching.path_storage == PathStorage::kMemory) {
     all.push_back({"path_storage", "on chip", {"matching.path_storage=on_chip"}});
   }

@@ -32,7 +32,7 @@ void describe_port(Schema& schema, const std::string& name, const std::string& w
                  "Burst length of the engine that " + what + "; a multiple of its data width.", origin);
   schema.integer(prefix + "outstanding", port.outstanding, {1, 256}, "bursts",
                  "Bursts that the engine that " + what + " has under way at most.", origin);
-  schema.integer(prefix + "data_bits", port.data_bits, {8, 1024}, "bit",
+  schema.integer(prefix + "data_bits", port.data_bits, {8, 8192}, "bit",
                  "Width of the engine that " + what + "; a multiple of 8.", origin);
   schema.integer(prefix + "fifo_bytes", port.fifo_bytes, {1, 1 << 20}, "B",
                  "Buffer of the engine that " + what + "; at least one burst.", origin);

@@ -11,7 +11,7 @@ class Schema;
 struct DmaPortConfig {
   std::uint32_t burst_bytes = 128;  ///< bytes per burst, a multiple of the data width, 1 to 4096; own choice
   std::uint32_t outstanding = 4;    ///< bursts requested and not yet answered, 1 to 256; own choice
-  std::uint32_t data_bits = 64;     ///< width of the engine's stream side, 8 to 1024, whole bytes; own choice
+  std::uint32_t data_bits = 64;     ///< width of the engine's stream side, 8 to 8192, whole bytes; own choice
   std::uint32_t fifo_bytes = 1024;  ///< buffer of the engine, at least one burst, up to 1 MiB; own choice
 };
 
