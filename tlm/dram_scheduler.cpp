@@ -30,6 +30,7 @@ double DramScheduler::usable_bandwidth() const {
 }
 
 void DramScheduler::serve_until(Picoseconds date, bool inclusive, MemoryService& service) {
+  if (beats_.size() > kBeats) count_beats(clock_at_or_after(date));  // or they pile up until somebody asks
   const Clock limit = clock_at_or_after(date) + (inclusive && date.count() % period_ == 0 ? 1 : 0);
   if (limit <= decided_) return;
   enter_until(limit, service);

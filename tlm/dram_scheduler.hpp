@@ -63,7 +63,8 @@ class DramScheduler final : public MemoryScheduler {
     Ring<Read> reads;              // in order
     Cycles bus;                    // that has passed
   };
-  struct Beats {  // on the data bus, not passed yet
+  static constexpr std::size_t kBeats = 1024;  // kept before they are counted
+  struct Beats {                               // on the data bus, not passed yet
     Clock end;
     std::size_t port;
   };
