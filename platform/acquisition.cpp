@@ -229,6 +229,21 @@ void Acquisition::expose(std::int64_t frame) {
   right_sensor_.read_out(images.right, skew_);
 }
 
+// What two images show: how far apart they began, and rows that did not come; when the last byte came early,
+// the frame was short.
+CameraFault Acquisition::found_fault(const Received& left, const Received& right) const {
+  const Cycles limit = clock_.cycle_at_or_after(nanoseconds(config_.camera.skew_limit_ns));
+  if (std::max(left.begin, right.begin) - std::min(left.begin, right.begin) > limit) {
+    return CameraFault::kOutOfStep;
+  }
+  for (const Received& image : {left, right}) {
+    if (image.rows == input_.height) continue;
+    const Cycles last_row = left_sensor_.row_time() * (input_.height - 1);
+    return image.last_byte <= image.begin + last_row ? CameraFault::kShortFrame : CameraFault::kMissingRow;
+  }
+  return CameraFault::kNone;
+}
+
 // Into the buffer that the next good frame will lie in.
 void Acquisition::expose_faulty() {
   const CameraFault fault = config_.camera.fault;
@@ -238,9 +253,11 @@ void Acquisition::expose_faulty() {
     lost.first =
         fault == CameraFault::kShortFrame ? input_.height - lost.count : (input_.height - lost.count) / 2;
   }
-  const std::function<void()> done = when_both([this, fault] {
+  const auto left = std::make_shared<Received>();
+  const auto right = std::make_shared<Received>();
+  const std::function<void()> done = when_both([this, left, right] {
     ++counts_.faulty;
-    listener_.faulty(fault);
+    listener_.faulty(found_fault(*left, *right));
     release();
     frame_complete_.notify();
   });
@@ -251,11 +268,12 @@ void Acquisition::expose_faulty() {
   job = image_job(place.right, false, input_.height);
   job.done = done;
   dma_right_.start(job);
-  const Cycles late = fault == CameraFault::kOutOfStep
-                          ? clock_.cycle_at_or_after(nanoseconds(config_.camera.skew_limit_ns)) * 2
-                          : skew_;
-  left_sensor_.read_out(nullptr, Cycles(0), lost);
-  right_sensor_.read_out(nullptr, late);
+  const Cycles late =
+      fault == CameraFault::kOutOfStep
+          ? clock_.cycle_at_or_after(nanoseconds(config_.camera.skew_limit_ns)) * 2 + Cycles(1)
+          : skew_;
+  left_sensor_.read_out(nullptr, Cycles(0), lost, left);
+  right_sensor_.read_out(nullptr, late, {}, right);
 }
 
 }  // namespace parallax

@@ -63,6 +63,7 @@ class Acquisition final : public sc_core::sc_module {
   bool note_trigger();
   Cycles next_on_demand() const;
   bool next_is_faulty();
+  CameraFault found_fault(const Received& left, const Received& right) const;
   void expose_next();
   void expose(std::int64_t frame);
   void expose_faulty();

@@ -15,8 +15,8 @@ Sensor::Sensor(const sc_core::sc_module_name& name, const SensorConfig& config, 
   dont_initialize();
 }
 
-void Sensor::read_out(SensorImage image, Cycles delay, LostRows lost) {
-  exposed_.push_back({std::move(image), clock_.now() + delay, lost});
+void Sensor::read_out(SensorImage image, Cycles delay, LostRows lost, std::shared_ptr<Received> received) {
+  exposed_.push_back({std::move(image), clock_.now() + delay, lost, std::move(received)});
   go_on_.notify();
 }
 
@@ -98,8 +98,10 @@ bool Sensor::begin_image() {
     dataflow_.post([this, image] { send(image); });
   }
   lost_ = exposed_.front().lost;
+  const std::shared_ptr<Received> received = exposed_.front().received;
   exposed_.pop_front();
   begin_ = begin;
+  if (received) *received = {begin, due(image_bytes() - 1), config_.height - lost_.count};
   free_ = begin + frame_time();
   busy_ += frame_time();
   at_ = 0;

@@ -28,6 +28,13 @@ struct SensorConfig {
 /// One image as a sensor sees it; without pixels it has a size and a time only.
 using SensorImage = std::shared_ptr<const std::vector<Gray>>;
 
+/// What a receiver sees of an image by its end: start and end of a frame are marked on the cable.
+struct Received {
+  Cycles begin;      ///< of the read-out
+  Cycles last_byte;  ///< when it is due
+  int rows = 0;
+};
+
 /// Rows of an image that do not arrive; their time passes.
 struct LostRows {
   int first = 0;
@@ -46,8 +53,9 @@ class Sensor final : public sc_core::sc_module, public Actor {
          Dataflow& dataflow);
 
   /// Starts to read out an image `delay` cycles from now, after the one before is out. One with lost rows has
-  /// no pixels.
-  void read_out(SensorImage image, Cycles delay = Cycles(0), LostRows lost = {});
+  /// no pixels. `received`, if there is one, is filled in when the read-out begins.
+  void read_out(SensorImage image, Cycles delay = Cycles(0), LostRows lost = {},
+                std::shared_ptr<Received> received = nullptr);
   /// Reads out a frame that nobody takes, beginning in a cycle in which the sensor was free: time passes, no
   /// bytes.
   void read_out_unheard(Cycles begin);
@@ -55,6 +63,8 @@ class Sensor final : public sc_core::sc_module, public Actor {
   bool reads_out_in(Cycles cycle) const;
   /// Whether it can begin a frame in `cycle`, unless what it reads out now gets late.
   bool free_by(Cycles cycle) const { return exposed_.empty() && std::max(free_, last_write_) <= cycle; }
+  /// Pixel clocks from one row to the next.
+  Cycles row_time() const { return config_.row; }
   /// Pixel clocks of one frame, blanking included.
   Cycles frame_time() const;
   /// Pixel clocks spent on frames, blanking included, until now.
@@ -67,6 +77,7 @@ class Sensor final : public sc_core::sc_module, public Actor {
     SensorImage image;
     Cycles at;
     LostRows lost;
+    std::shared_ptr<Received> received;
   };
 
   void advance() override;

@@ -100,6 +100,15 @@ TEST(MachineCameras, AFaultyFrameIsFlaggedAndTheNextOneIsProcessed) {
   }
 }
 
+TEST(MachineCameras, AFaultIsFoundWhateverItsExtent) {
+  EXPECT_EQ(run({"camera.fault=short_frame", "camera.fault_rows=63"}).errors & 0xFFFFu, 1u);
+  EXPECT_EQ(run({"camera.fault=missing_row", "camera.fault_rows=62"}).errors & 0xFFFFu, 2u);
+  EXPECT_EQ(run({"camera.fault=short_frame", "camera.format=rgb8"}).errors & 0xFFFFu, 1u);
+  EXPECT_EQ(run({"camera.fault=out_of_step", "camera.skew_limit_ns=0"}).errors & 0xFFFFu, 4u);
+  // Within the limit, the images are in step, and the fault is another one.
+  EXPECT_EQ(run({"camera.fault=missing_row", "camera.skew_ns=900000"}).errors & 0xFFFFu, 2u);
+}
+
 TEST(MachineCameras, FaultsTakeTheirTriggers) {
   const Outcome good = run({"camera.frame_rate=300"});
   const Outcome faulty = run({"camera.frame_rate=300", "camera.fault=missing_row", "camera.fault_every=2"});
