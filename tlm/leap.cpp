@@ -53,6 +53,10 @@ bool Leap::extend() {
   periods_ += periods;
   for (Member& member : members_) {
     if (!member.active || !member.takes_part) continue;
+    if (StageListener* listener = member.stage->listener_) {
+      listener->repeated(*member.stage, member.observed, Cycles(period_ * as_signed(periods_ - periods + 1)),
+                         Cycles(period_), periods);
+    }
     member.done += periods * member.firings;
     commit_events(member, member.base + member.done);
   }
@@ -146,7 +150,8 @@ bool Leap::write_pending(Member& member) {
       return true;
     }
     firing.left = written;
-    firing.by_memory = false;
+    firing.room = nullptr;
+    firing.wait = StageActivity::kBlocked;
     ++stage.left_;
     for (StreamBase* stream : stage.outputs_.of_mask[firing.produce])
       stream->mark_written(written, Cycles(0));
@@ -264,8 +269,10 @@ void Leap::commit_events(Member& member, std::uint64_t until) {
     }
     if (event.produce == 0) continue;
     const Cycles written = start + Cycles(stage.latency_);
-    stage.pipe_[stage.entered_++ & stage.pipe_mask_] = {start, written, event.produce, false,
-                                                        static_cast<std::uint32_t>(stage.frames_.size() - 1)};
+    stage.pipe_[stage.entered_++ & stage.pipe_mask_] = {
+        start,         written,
+        event.produce, StageActivity::kBlocked,
+        nullptr,       static_cast<std::uint32_t>(stage.frames_.size() - 1)};
     if (event.pending) {
       --member.claimed_pending;
       continue;

@@ -95,7 +95,7 @@ class Leap {
     // One period:
     std::uint64_t firings = 0, writes = 0;
     StageStatistics delta;
-    std::vector<Stage::Observed> observed;
+    std::vector<FiringDates> observed;
     // Progress:
     std::uint64_t base = 0, done = 0;  // firings at the end of the period observed, and since
     Stage::Position cursor;            // of firing `scanned`

@@ -305,7 +305,7 @@ bool Leap::repeats(Member& member) const {
       if (within(firing(i).produce, member.core_out) != 0) return false;  // still on its way out
     }
     // What it writes irregularly must not hold it back.
-    return member.delta.blocked == Cycles(0) && member.delta.memory == Cycles(0);
+    return member.delta.blocked + member.delta.memory + member.delta.synchroniser == Cycles(0);
   }
   if (stage.left_ - member.left_before != member.writes ||
       (member.writes != 0 && stage.last_write_ - member.last_write_before != period)) {

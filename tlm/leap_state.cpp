@@ -50,10 +50,10 @@ void Leap::materialize(Member& member, std::uint64_t periods) {
   const auto frame = static_cast<std::uint32_t>(stage.frames_.size() - 1);
   // The entries of one period, from which all others follow; they may be overwritten below.
   std::vector<Stage::Firing> entered;
-  std::vector<Cycles> left;
+  std::vector<Stage::Firing> left;
   for (std::uint64_t i = 0; i < member.writes; ++i) {
     entered.push_back(stage.pipe_[(stage.entered_ - member.writes + i) & stage.pipe_mask_]);
-    left.push_back(stage.pipe_[(stage.left_ - member.writes + i) & stage.pipe_mask_].left);
+    left.push_back(stage.pipe_[(stage.left_ - member.writes + i) & stage.pipe_mask_]);
   }
   const auto shift = [this](std::uint64_t passes) { return Cycles(period_ * as_signed(passes + 1)); };
   const std::uint64_t added = periods * member.writes;
@@ -62,12 +62,14 @@ void Leap::materialize(Member& member, std::uint64_t periods) {
     Stage::Firing& entry = stage.pipe_[(stage.entered_ + i) & stage.pipe_mask_];
     entry.start = model.start + shift(i / member.writes);
     entry.produce = model.produce;
-    entry.by_memory = false;
     entry.frame = frame;
   }
   for (std::uint64_t i = added - std::min(added, size); i < added; ++i) {
-    stage.pipe_[(stage.left_ + i) & stage.pipe_mask_].left =
-        left[i % member.writes] + shift(i / member.writes);
+    const Stage::Firing& model = left[i % member.writes];
+    Stage::Firing& entry = stage.pipe_[(stage.left_ + i) & stage.pipe_mask_];
+    entry.left = model.left + shift(i / member.writes);
+    entry.wait = model.wait;
+    entry.room = model.room;
   }
   stage.entered_ += added;
   stage.left_ += added;

@@ -102,8 +102,8 @@ bool Stage::fire() {
   }
 
   Cycles room(0);
-  bool full_at_memory = false;
-  StreamBase* fullest = nullptr;  // of a combinational stage
+  StageActivity room_wait = StageActivity::kBlocked;
+  const StreamBase* fullest = nullptr;
   if (phase.produce != 0) {
     if (latency_ == 0) {
       for (StreamBase* stream : outputs_.of_mask[phase.produce]) {
@@ -113,7 +113,6 @@ bool Stage::fire() {
         } else if (const Cycles date = stream->writable_at(); date > room) {
           room = date;
           fullest = stream;
-          full_at_memory = stream->at_memory();
         }
       }
     } else if (entered_ - left_ == latency_) {
@@ -121,7 +120,8 @@ bool Stage::fire() {
     } else if (entered_ >= latency_) {
       const Firing& ahead = pipe_[(entered_ - latency_) & pipe_mask_];
       room = ahead.left;
-      full_at_memory = ahead.by_memory;
+      room_wait = ahead.wait;
+      fullest = ahead.room;
     }
   }
   if (!known) return false;
@@ -129,28 +129,46 @@ bool Stage::fire() {
   const Cycles ready = std::max(free_, inputs);
   const Cycles start = std::max(ready, room);
   const Cycles starved = ready - free_;
-  if (observed_ != nullptr) {
-    observed_->push_back({free_, start});
-    observe(phase, consumed);
+  const Cycles blocked = start - ready;
+  const StageActivity work =
+      phase.consume == 0 && phase.produce == 0 ? StageActivity::kBlanking : StageActivity::kBusy;
+  StageActivity input_wait = StageActivity::kStarved;
+  if (starved > Cycles(0)) {
+    if (latest->at_memory()) {
+      input_wait = frame_begins ? StageActivity::kBlanking : StageActivity::kMemory;
+    } else if (latest->behind_synchroniser(inputs, free_)) {
+      input_wait = StageActivity::kSynchroniser;
+    }
+    statistics_.of(input_wait) += starved;
+  }
+  if (blocked > Cycles(0)) {
+    if (latency_ == 0) {
+      room_wait = wait_for_room(*fullest, ready);
+      fullest->count_blocked(blocked);
+    }
+    statistics_.of(room_wait) += blocked;
+  }
+  if (observed_ != nullptr || listener_ != nullptr) {
+    const FiringDates dates{free_,      ready,     start,  phase.interval, work,
+                            input_wait, room_wait, latest, fullest};
+    if (observed_ != nullptr) {
+      observed_->push_back(dates);
+      observe(phase, consumed);
+    }
+    if (listener_ != nullptr) listener_->fired(*this, dates);
   }
   starts_[statistics_.firings % kStartsKept] = start;
   for (StreamBase* stream : consumed) stream->mark_read(start, stream == latest ? starved : Cycles(0));
-  if (starved > Cycles(0)) {
-    (!latest->at_memory() ? statistics_.starved
-     : frame_begins       ? statistics_.blanking
-                          : statistics_.memory) += starved;
-  }
-  (full_at_memory ? statistics_.memory : statistics_.blocked) += start - ready;
-  if (fullest != nullptr && start > ready) fullest->count_blocked(start - ready);
   if (frame_begins) frames_.push_back({start, start, Cycles(-1), Cycles(-1), statistics_});
-  (phase.consume == 0 && phase.produce == 0 ? statistics_.blanking : statistics_.busy) +=
-      Cycles(phase.interval);
+  statistics_.of(work) += Cycles(phase.interval);
   ++statistics_.firings;
   frames_.back().last_firing = start;
   free_ = start + Cycles(phase.interval);
   if (phase.produce != 0) {
     Firing& firing = pipe_[entered_++ & pipe_mask_];
-    firing = {start, start, phase.produce, false, static_cast<std::uint32_t>(frames_.size() - 1)};
+    firing = {start,         start,
+              phase.produce, StageActivity::kBlocked,
+              nullptr,       static_cast<std::uint32_t>(frames_.size() - 1)};
     if (latency_ == 0) {
       ++left_;
       write(firing, start);
@@ -191,12 +209,20 @@ bool Stage::write(Firing& firing, Cycles earliest) {
   last_write_ = std::max(wanted, room);
   firing.left = last_write_;
   const Cycles blocked = last_write_ - wanted;
-  firing.by_memory = blocked > Cycles(0) && latest->at_memory();
+  firing.room = blocked > Cycles(0) ? latest : nullptr;
+  firing.wait = blocked > Cycles(0) ? wait_for_room(*latest, wanted) : StageActivity::kBlocked;
   for (StreamBase* stream : produced) {
     stream->mark_written(last_write_, stream == latest ? blocked : Cycles(0));
   }
   note_write(frames_[firing.frame], last_write_);
   return true;
+}
+
+// What a wait for room in `stream` counts as that began in cycle `wanted`.
+StageActivity Stage::wait_for_room(const StreamBase& stream, Cycles wanted) {
+  if (stream.at_memory()) return StageActivity::kMemory;
+  return stream.behind_synchroniser(stream.writable_at(), wanted) ? StageActivity::kSynchroniser
+                                                                  : StageActivity::kBlocked;
 }
 
 void Stage::note_write(FrameDates& frame, Cycles cycle) {

@@ -12,35 +12,11 @@
 #include "tlm/dataflow.hpp"
 #include "tlm/kept_records.hpp"
 #include "tlm/schedule.hpp"
+#include "tlm/stage_activity.hpp"
 #include "tlm/stream.hpp"
 #include "tlm/units.hpp"
 
 namespace parallax {
-
-/// Where a stage's time went, in cycles of its clock. The five are exact and complete: their sum is the date
-/// up to which they are known.
-struct StageStatistics {
-  std::uint64_t firings = 0;
-  Cycles busy;      ///< firing with a token on some port
-  Cycles blanking;  ///< declared row and frame overheads, and no frame there: waiting for a frame's first
-                    ///< token from the memory
-  Cycles starved;  ///< held back by an empty input
-  Cycles blocked;  ///< held back by a full output
-  Cycles memory;   ///< held back by a stream from or to a memory port, within a frame
-
-  Cycles total() const { return busy + blanking + starved + blocked + memory; }
-  StageStatistics& operator-=(const StageStatistics& o) { return add(o, -1); }
-  /// Adds `times` times the other's counts.
-  StageStatistics& add(const StageStatistics& o, std::int64_t times) {
-    firings += o.firings * static_cast<std::uint64_t>(times);
-    busy += o.busy * times;
-    blanking += o.blanking * times;
-    starved += o.starved * times;
-    blocked += o.blocked * times;
-    memory += o.memory * times;
-    return *this;
-  }
-};
 
 /// When one frame went through a stage, in cycles of its clock.
 struct FrameDates {
@@ -82,6 +58,8 @@ class Stage : public sc_core::sc_module, public Actor {
   }
   /// At least the first and the last `number` of these are kept; all, unless this is called.
   void keep_frames(std::size_t number) { frames_.keep(number); }
+  /// At most one listener; nullptr for none. It must outlive the simulation.
+  void listen(StageListener* listener) { listener_ = listener; }
   /// The streams at input (output) port `port`, in order of binding; after elaboration.
   std::vector<const StreamBase*> input_streams(unsigned port) const { return at_port(inputs_, port); }
   std::vector<const StreamBase*> output_streams(unsigned port) const { return at_port(outputs_, port); }
@@ -105,15 +83,12 @@ class Stage : public sc_core::sc_module, public Actor {
   friend class Leap;
   static constexpr std::uint64_t kStartsKept = 128;
 
-  struct Observed {  // one firing
-    Cycles free;     // when the stage was ready for it
-    Cycles start;
-  };
   struct Firing {  // one that writes
     Cycles start;
     Cycles left;  // when it left the pipeline, once that is known
     PortMask produce = 0;
-    bool by_memory = false;  // the last to make room for it was a memory port
+    StageActivity wait = StageActivity::kBlocked;  // what it waited for room as, before it left
+    const StreamBase* room = nullptr;              // the stream that had room last, if it waited
     std::uint32_t frame = 0;
   };
   struct Streams {  // of one PortMask, as a piece of Ports::streams
@@ -150,6 +125,7 @@ class Stage : public sc_core::sc_module, public Actor {
   bool write(Firing& firing, Cycles earliest);
   void note_write(FrameDates& frame, Cycles cycle);
   void observe(const Phase& phase, Streams consumed);
+  static StageActivity wait_for_room(const StreamBase& stream, Cycles wanted);
   void step();
   bool next_phase(Position& position) const {
     position.count = 0;
@@ -176,10 +152,11 @@ class Stage : public sc_core::sc_module, public Actor {
   Position next_;
   const Phase* phase_ = nullptr;                                          // at next_
   std::uint64_t fire_limit_ = std::numeric_limits<std::uint64_t>::max();  // set by Leap
-  std::vector<Observed>* observed_ = nullptr;                             // by Leap
-  std::array<Cycles, kStartsKept> starts_{};                              // of the last firings
-  Cycles free_{0};            // first cycle in which the stage can fire again
-  std::vector<Firing> pipe_;  // the last firings that write, by index & pipe_mask_
+  std::vector<FiringDates>* observed_ = nullptr;                          // by Leap
+  StageListener* listener_ = nullptr;
+  std::array<Cycles, kStartsKept> starts_{};  // of the last firings
+  Cycles free_{0};                            // first cycle in which the stage can fire again
+  std::vector<Firing> pipe_;                  // the last firings that write, by index & pipe_mask_
   std::uint64_t pipe_mask_;
   std::uint64_t entered_ = 0;  // firings that entered the pipeline
   std::uint64_t left_ = 0;     // of these, firings whose writing date is known

@@ -76,6 +76,12 @@ class StreamBase : public sc_core::sc_prim_channel, public virtual sc_core::sc_i
   std::uint32_t depth() const { return config_.depth; }
   Bits width() const { return config_.width; }
   Bits storage() const { return config_.width * config_.depth; }
+  /// Whether a token (place) that is there in cycle `date` of the reader's (writer's) clock, and was wanted
+  /// in cycle `wanted`, had been written (read) by then, so that it was the synchroniser alone that kept it
+  /// back.
+  bool behind_synchroniser(Cycles date, Cycles wanted) const {
+    return config_.kind == FifoKind::kAsynchronous && date - Cycles(config_.synchroniser_stages) <= wanted;
+  }
   const ClockDomain& writer_clock() const { return writer_clock_; }
   const ClockDomain& reader_clock() const { return reader_clock_; }
   bool at_memory() const { return config_.at_memory; }
@@ -180,7 +186,7 @@ class StreamBase : public sc_core::sc_prim_channel, public virtual sc_core::sc_i
     watch.ready.push_back(ready);
     watch.binds = watch.binds || date > ready;
   }
-  void count_blocked(Cycles cycles) { statistics_.blocked_on_full += cycles; }
+  void count_blocked(Cycles cycles) const { statistics_.blocked_on_full += cycles; }
   Cycles write_date(std::uint64_t token) const { return write_dates_[token & mask_]; }
   Cycles read_date(std::uint64_t token) const { return read_dates_[token & mask_]; }
   std::uint64_t history() const { return mask_ + 1; }

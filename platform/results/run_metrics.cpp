@@ -181,33 +181,42 @@ double share_of(const std::vector<PartLoad>& loads, const std::string& part) {
   return found == loads.end() ? 0 : found->share;
 }
 
+const char* description_of(StageActivity activity) {
+  switch (activity) {
+    case StageActivity::kBusy:
+      return "At work with a token on some port.";
+    case StageActivity::kStarved:
+      return "Held back by an empty input from another stage.";
+    case StageActivity::kBlocked:
+      return "Held back by a full output to another stage (back-pressure).";
+    case StageActivity::kMemory:
+      return "Held back by a stream from or to a memory port, within a frame.";
+    case StageActivity::kSynchroniser:
+      return "Held back by a token or a place that is there, but still in an asynchronous FIFO's "
+             "synchroniser.";
+    case StageActivity::kBlanking:
+      return "Declared row and frame overhead, and waiting for a frame to begin.";
+  }
+  return "";
+}
+
 // Whole cycles, and shares of one decimal that sum to 100.
-void add_stage_time(MetricGroup& group, const StageTime& time, const std::string& window) {
-  struct Part {
-    const char* name;
-    Cycles cycles;
-    const char* description;
-  };
-  const std::vector<Part> parts{
-      {"busy", time.busy, "At work with a token on some port."},
-      {"starved", time.starved, "Held back by an empty input from another stage."},
-      {"blocked", time.blocked, "Held back by a full output to another stage (back-pressure)."},
-      {"memory", time.memory, "Held back by a stream from or to a memory port, within a frame."},
-      {"blanking", time.blanking, "Declared row and frame overhead, and waiting for a frame to begin."}};
+void add_stage_time(MetricGroup& group, const StageStatistics& time, const std::string& window) {
   group.add(
-      {"window", time.whole.count(), "cycles",
-       "From the stage's first firing for the window's first frame to that for its last: the sum of the five "
+      {"window", time.total().count(), "cycles",
+       "From the stage's first firing for the window's first frame to that for its last: the sum of the six "
        "below.",
        window});
   std::vector<std::int64_t> cycles;
-  for (const Part& part : parts) {
-    group.add({part.name, part.cycles.count(), "cycles", part.description, window});
-    cycles.push_back(part.cycles.count());
+  for (const StageActivity activity : kAllStageActivities) {
+    cycles.push_back(time.of(activity).count());
+    group.add({name_of(activity), cycles.back(), "cycles", description_of(activity), window});
   }
   const std::vector<std::int64_t> tenths = shares_in_tenths(cycles);
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    group.add({std::string(parts[i].name) + "_share", static_cast<double>(tenths[i]) / 10.0, "%",
-               "The same as a share of the window; the five are rounded so that they sum to 100.0.", window});
+  for (std::size_t i = 0; i < tenths.size(); ++i) {
+    group.add({fmt::format("{}_share", name_of(kAllStageActivities[i])),
+               static_cast<double>(tenths[i]) / 10.0, "%",
+               "The same as a share of the window; the six are rounded so that they sum to 100.0.", window});
   }
 }
 

@@ -6,21 +6,10 @@
 
 namespace parallax {
 
-StageTime stage_time(const StageInfo& info, const SteadyWindow& window) {
-  if (window.frames() == 0) {
-    const StageStatistics& all = info.stage->statistics();
-    return {all.total(), all.busy, all.starved, all.blocked, all.memory, all.blanking};
-  }
-  const FrameDates& first = info.first_pass(window.first);
-  const FrameDates& last = info.first_pass(window.last);
-  const StageStatistics& from = first.before;
-  const StageStatistics& to = last.before;
-  return {last.first_firing - first.first_firing,
-          to.busy - from.busy,
-          to.starved - from.starved,
-          to.blocked - from.blocked,
-          to.memory - from.memory,
-          to.blanking - from.blanking};
+StageStatistics stage_time(const StageInfo& info, const SteadyWindow& window) {
+  if (window.frames() == 0) return info.stage->statistics();
+  StageStatistics time = info.first_pass(window.last).before;
+  return time -= info.first_pass(window.first).before;
 }
 
 std::vector<std::int64_t> shares_in_tenths(const std::vector<std::int64_t>& parts) {

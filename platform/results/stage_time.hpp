@@ -9,19 +9,9 @@
 
 namespace parallax {
 
-/// Where a stage's cycles went between two dates. The five are exact and complete.
-struct StageTime {
-  Cycles whole;  ///< between the dates; the sum of those that follow
-  Cycles busy;
-  Cycles starved;
-  Cycles blocked;
-  Cycles memory;
-  Cycles blanking;
-};
-
-/// Of the window's frames, from a stage's first firing for one frame to that for another; of the whole run
-/// when the window holds no frame.
-StageTime stage_time(const StageInfo& info, const SteadyWindow& window);
+/// Where a stage's cycles went for the window's frames: from a stage's first firing for one frame to that for
+/// another; of the whole run when the window holds no frame.
+StageStatistics stage_time(const StageInfo& info, const SteadyWindow& window);
 
 /// The parts (>= 0) as shares of their sum, in tenths of a percent, rounded so that they sum to exactly 1000:
 /// those with the largest remainders are rounded up, of equal ones the first. All 0 if the sum is.

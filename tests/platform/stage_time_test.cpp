@@ -56,7 +56,7 @@ TEST_P(StageReport, CyclesSumToTheWindowAndSharesToAHundred) {
   for (const auto& [name, stage] : tree["stages"].items()) {
     SCOPED_TRACE(name);
     std::int64_t cycles = 0, tenths = 0;
-    for (const char* part : {"busy", "starved", "blocked", "memory", "blanking"}) {
+    for (const char* part : {"busy", "starved", "blocked", "memory", "synchroniser", "blanking"}) {
       ASSERT_TRUE(stage[part]["value"].is_number_integer());
       const std::int64_t value = stage[part]["value"];
       EXPECT_GE(value, 0) << part;
@@ -98,15 +98,17 @@ TEST_P(StageReport, CyclesSumToTheWindowAndSharesToAHundred) {
 
 INSTANTIATE_TEST_SUITE_P(
     Of, StageReport,
-    ::testing::Values("--size 160x128", "--size 64x48 --timing-frames 1", "--size 64x48 --timing-frames 2",
-                      "--size 96x64 --set memory.model=bus --set memory.bytes_per_cycle=1 --set clocks.memory_hz=20e6",
-                      "--size 96x64 --set link.host_pixel_rate=0 --set rectification.row_overhead=20"));
+    ::testing::Values(
+        "--size 160x128", "--size 64x48 --timing-frames 1", "--size 64x48 --timing-frames 2",
+        "--size 96x64 --set memory.model=bus --set memory.bytes_per_cycle=1 --set clocks.memory_hz=20e6",
+        "--size 96x64 --set link.host_pixel_rate=0 --set rectification.row_overhead=20"));
 
 TEST_F(StageReport, SlowMemoryShowsAsWaitingForMemoryAndOverheadAsBlanking) {
   const auto share = [](const nlohmann::json& tree, const char* stage, const char* part) {
     return tree["stages"][stage][part]["value"].get<double>();
   };
-  const nlohmann::json slow = run("--size 96x64 --set memory.model=bus --set memory.bytes_per_cycle=1 --set clocks.memory_hz=20e6");
+  const nlohmann::json slow =
+      run("--size 96x64 --set memory.model=bus --set memory.bytes_per_cycle=1 --set clocks.memory_hz=20e6");
   EXPECT_GT(share(slow, "unpack_left", "memory_share"), 10);
   const nlohmann::json idle =
       run("--size 96x64 --set link.host_pixel_rate=0 --set census.row_overhead=1000 "

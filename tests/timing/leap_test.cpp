@@ -6,8 +6,10 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <deque>
 #include <sstream>
 
+#include "tests/timing/firing_log.hpp"
 #include "tests/timing/in_child.hpp"
 #include "tests/timing/model_simulation.hpp"
 #include "tests/timing/pipeline_simulation.hpp"
@@ -22,9 +24,16 @@ namespace {
 template <class Simulation>
 std::string outcome(Simulation& simulation) {
   std::string text;
+  std::deque<FiringLog> logs;
+  for (Stage* stage : simulation.dataflow().stages()) logs.emplace_back(*stage);
   const std::vector<EdgeDates> dates = simulation.run();
   for (const StreamBase* stream : simulation.dataflow().streams()) text += statistics_text(*stream);
-  for (const Stage* stage : simulation.dataflow().stages()) text += statistics_text(*stage);
+  std::size_t log = 0;
+  for (const Stage* stage : simulation.dataflow().stages()) {
+    text += statistics_text(*stage) + logs[log].text();
+    if (text_of(logs[log++].sums) != text_of(stage->statistics()))
+      text += "firings do not sum to the statistics\n";
+  }
   for (const Wait& wait : simulation.dataflow().waits())
     text += fmt::format("{} {} waits\n", wait.waiter, wait.on_full);
   for (const EdgeDates& edge : dates) {

@@ -29,7 +29,7 @@ std::string impossible(const Json& tree, const std::string& path) {
   return text;
 }
 
-// The five parts of a stage's time between two counts.
+// The six parts of a stage's time between two counts.
 std::string check_parts(const std::string& what, const std::vector<std::int64_t>& parts, std::int64_t whole) {
   std::string text;
   std::int64_t sum = 0;
@@ -42,7 +42,8 @@ std::string check_parts(const std::string& what, const std::vector<std::int64_t>
 }
 
 std::vector<std::int64_t> parts(const StageStatistics& s) {
-  return {s.busy.count(), s.blanking.count(), s.starved.count(), s.blocked.count(), s.memory.count()};
+  return {s.busy.count(),    s.blanking.count(), s.starved.count(),
+          s.blocked.count(), s.memory.count(),   s.synchroniser.count()};
 }
 
 std::string check_shares(const Machine& machine, const MachineCase& c) {
@@ -68,7 +69,7 @@ std::string check_shares(const Machine& machine, const MachineCase& c) {
     const Json& stage = tree["stages"][name];
     std::int64_t tenths = 0;
     std::vector<std::int64_t> cycles;
-    for (const char* part : {"busy", "starved", "blocked", "memory", "blanking"}) {
+    for (const char* part : {"busy", "starved", "blocked", "memory", "synchroniser", "blanking"}) {
       cycles.push_back(stage[part]["value"]);
       tenths += std::llround(10 * stage[std::string(part) + "_share"]["value"].get<double>());
     }

@@ -22,9 +22,9 @@ inline std::string statistics_text(const StreamBase& stream) {
 }
 
 inline std::string text_of(const StageStatistics& s) {
-  return fmt::format("firings {} busy {} blanking {} starved {} blocked {} memory {}", s.firings,
-                     s.busy.count(), s.blanking.count(), s.starved.count(), s.blocked.count(),
-                     s.memory.count());
+  return fmt::format("firings {} busy {} blanking {} starved {} blocked {} memory {} synchroniser {}",
+                     s.firings, s.busy.count(), s.blanking.count(), s.starved.count(), s.blocked.count(),
+                     s.memory.count(), s.synchroniser.count());
 }
 
 inline std::string statistics_text(const Stage& stage) {

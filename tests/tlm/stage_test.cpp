@@ -6,7 +6,9 @@
 
 #include <stdexcept>
 
+#include "tests/timing/firing_log.hpp"
 #include "tests/timing/model_simulation.hpp"
+#include "tests/timing/statistics_text.hpp"
 
 namespace parallax::test {
 namespace {
@@ -183,6 +185,41 @@ TEST(Stage, ItsTimeIsAccountedFor) {
   EXPECT_EQ(s.blanking.count(), 0);
   // Every cycle up to the end of the last firing is one of these.
   EXPECT_EQ((s.starved + s.blocked + s.busy + s.blanking).count(), 15 + 2);
+}
+
+TEST(Stage, WaitsForASynchroniserAreTheirOwn) {
+  // Written in 0 and 4, readable two synchroniser stages after the next edge, in 3 and 7; ready in 0 and 5.
+  Graph in = chain({0, 3}, stage(0, {{2, {{1, 2, 1, 1}}}}), zeros(2));
+  in.edges[0].of_kind(FifoKind::kAsynchronous);
+  ModelSimulation model(in, kThreads);
+  EXPECT_EQ(model.run()[0].read, Dates({3, 7}));
+  const StageStatistics& s = model.stage(1).statistics();
+  EXPECT_EQ(s.starved.count(), 3);       // it was not written yet when the stage was ready
+  EXPECT_EQ(s.synchroniser.count(), 2);  // it was
+  EXPECT_EQ(s.total().count(), 3 + 2 + 2 + 2);
+}
+
+TEST(Stage, WaitsForAPlaceBehindASynchroniserAreToo) {
+  // Written in 1, 2, 3, 4, read in 4, 5, ..., so there is room in 7; the stage would have written in 5.
+  Graph out = chain(zeros(8), stage(0, {{8, {{1, 1, 1, 1}}}}), zeros(8), 4);
+  out.edges[1].of_kind(FifoKind::kAsynchronous);
+  ModelSimulation model(out, kThreads);
+  EXPECT_EQ(model.run()[1].written, Dates({1, 2, 3, 4, 7, 8, 9, 10}));
+  const StageStatistics& s = model.stage(1).statistics();
+  EXPECT_EQ(s.synchroniser.count(), 2);
+  EXPECT_EQ(s.blocked.count(), 0);
+}
+
+TEST(Stage, ItsFiringsAreTold) {
+  // As above: ready in 0, 3, 13, 15; a token in 1, 2, 3, 4; room in 0, 11, 13, 15.
+  ModelSimulation model(chain(zeros(4), stage(0, {{4, {{1, 2, 1, 1}}}}), {10, 0, 0, 0}, 1), kThreads);
+  FiringLog log(*model.dataflow().stages()[0]);
+  model.run();
+  EXPECT_EQ(text_of(log.sums), text_of(model.stage(1).statistics()));
+  EXPECT_NE(log.text().find(": 0 1 1 +2 busy starved s0; 3 3 11 +2 busy blocked s1; 13 13 13 +2 busy; "
+                            "15 15 15 +2 busy; \n"),
+            std::string::npos)
+      << log.text();
 }
 
 TEST(Stage, ItsPortsCanBeLookedUp) {

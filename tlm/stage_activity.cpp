@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tlm/stage_activity.hpp"
+
+#include <array>
+
+namespace parallax {
+
+const char* name_of(StageActivity activity) {
+  static constexpr std::array<const char*, kAllStageActivities.size()> kNames{
+      "busy", "starved", "blocked", "memory", "synchroniser", "blanking"};
+  return kNames.at(static_cast<std::size_t>(activity));
+}
+
+Cycles& StageStatistics::of(StageActivity activity) {
+  switch (activity) {
+    case StageActivity::kBusy:
+      return busy;
+    case StageActivity::kStarved:
+      return starved;
+    case StageActivity::kBlocked:
+      return blocked;
+    case StageActivity::kMemory:
+      return memory;
+    case StageActivity::kSynchroniser:
+      return synchroniser;
+    case StageActivity::kBlanking:
+      break;
+  }
+  return blanking;
+}
+
+StageStatistics& StageStatistics::add(const StageStatistics& o, std::int64_t times) {
+  firings += o.firings * static_cast<std::uint64_t>(times);
+  busy += o.busy * times;
+  starved += o.starved * times;
+  blocked += o.blocked * times;
+  memory += o.memory * times;
+  synchroniser += o.synchroniser * times;
+  blanking += o.blanking * times;
+  return *this;
+}
+
+}  // namespace parallax
