@@ -160,7 +160,7 @@ bool Stage::fire() {
   starts_[statistics_.firings % kStartsKept] = start;
   for (StreamBase* stream : consumed) stream->mark_read(start, stream == latest ? starved : Cycles(0));
   if (frame_begins) frames_.push_back({start, start, Cycles(-1), Cycles(-1), statistics_});
-  statistics_.of(work) += Cycles(phase.interval);
+  (work == StageActivity::kBlanking ? statistics_.blanking : statistics_.busy) += Cycles(phase.interval);
   ++statistics_.firings;
   frames_.back().last_firing = start;
   free_ = start + Cycles(phase.interval);

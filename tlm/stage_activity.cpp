@@ -11,24 +11,6 @@ const char* name_of(StageActivity activity) {
   return kNames.at(static_cast<std::size_t>(activity));
 }
 
-Cycles& StageStatistics::of(StageActivity activity) {
-  switch (activity) {
-    case StageActivity::kBusy:
-      return busy;
-    case StageActivity::kStarved:
-      return starved;
-    case StageActivity::kBlocked:
-      return blocked;
-    case StageActivity::kMemory:
-      return memory;
-    case StageActivity::kSynchroniser:
-      return synchroniser;
-    case StageActivity::kBlanking:
-      break;
-  }
-  return blanking;
-}
-
 StageStatistics& StageStatistics::add(const StageStatistics& o, std::int64_t times) {
   firings += o.firings * static_cast<std::uint64_t>(times);
   busy += o.busy * times;

@@ -42,12 +42,18 @@ struct StageStatistics {
   Cycles blanking;
 
   Cycles total() const { return busy + starved + blocked + memory + synchroniser + blanking; }
-  Cycles& of(StageActivity activity);
-  Cycles of(StageActivity activity) const { return const_cast<StageStatistics*>(this)->of(activity); }
+  Cycles& of(StageActivity activity) { return this->*kParts[static_cast<std::size_t>(activity)]; }
+  Cycles of(StageActivity activity) const { return this->*kParts[static_cast<std::size_t>(activity)]; }
   StageStatistics& operator-=(const StageStatistics& o) { return add(o, -1); }
   /// Adds `times` times the other's counts.
   StageStatistics& add(const StageStatistics& o, std::int64_t times);
+
+ private:
+  static const std::array<Cycles StageStatistics::*, kAllStageActivities.size()> kParts;  // by activity
 };
+inline constexpr std::array<Cycles StageStatistics::*, kAllStageActivities.size()> StageStatistics::kParts{
+    &StageStatistics::busy,   &StageStatistics::starved,      &StageStatistics::blocked,
+    &StageStatistics::memory, &StageStatistics::synchroniser, &StageStatistics::blanking};
 
 /// One firing of a stage, in cycles of its clock: what it had to wait for, one after the other.
 struct FiringDates {
