@@ -29,6 +29,7 @@ Uniqueness::Uniqueness(const UniquenessConfig& config, DisparityRange range, int
 }
 
 std::int64_t Uniqueness::storage_bits() const {
+  if (!config_.enabled) return 0;
   constexpr std::int64_t kCostBits = 16;
   constexpr std::int64_t kIndexBits = 8;
   return (config_.neighbours_are_rivals ? 2 : 4) * (kCostBits + kIndexBits);

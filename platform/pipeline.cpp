@@ -244,7 +244,9 @@ void Pipeline::bind(StreamOut<std::uint8_t>& left, StreamOut<std::uint8_t>& righ
   output(output_bursts_);
 }
 
-StageInfo Pipeline::last_filter() const { return {&noise_reduction_, noise_reduction_.storage(), tiles_}; }
+StageInfo Pipeline::last_filter() const {
+  return {&noise_reduction_, noise_reduction_.storage(), tiles_, config_.noise_reduction.enabled};
+}
 
 void Pipeline::configure(const AlgorithmParameters& parameters) {
   const bool changed = !(parameters == parameters_);
@@ -272,21 +274,22 @@ void Pipeline::keep_frames(std::size_t frames) {
 
 std::vector<StageInfo> Pipeline::stages() const {
   // The map, and the results, of all tiles are one frame each.
-  std::vector<StageInfo> all{{&unpack_left_, Bits(config_.dma.left.burst_bytes * 8), tiles_},
-                             {&unpack_right_, Bits(config_.dma.right.burst_bytes * 8), tiles_},
-                             {&unpack_map_, Bits(config_.dma.map.burst_bytes * 8)},
-                             {&map_decoder_, map_decoder_.storage()},
-                             {&rectification_, rectification_.storage(), tiles_},
-                             {&census_, census_.storage(), tiles_},
-                             {&matching_, matching_.storage(), tiles_},
-                             {&subpixel_, subpixel_.storage(), tiles_},
-                             {&uniqueness_, uniqueness_.storage(), tiles_},
-                             {&consistency_, consistency_.storage(), tiles_},
-                             {&texture_, texture_.storage(), tiles_},
-                             {&speckle_, speckle_.storage(), tiles_},
-                             {&gap_interpolation_, gap_interpolation_.storage(), tiles_},
-                             last_filter(),
-                             {&output_packing_, output_packing_.storage()}};
+  std::vector<StageInfo> all{
+      {&unpack_left_, Bits(config_.dma.left.burst_bytes * 8), tiles_},
+      {&unpack_right_, Bits(config_.dma.right.burst_bytes * 8), tiles_},
+      {&unpack_map_, Bits(config_.dma.map.burst_bytes * 8)},
+      {&map_decoder_, map_decoder_.storage()},
+      {&rectification_, rectification_.storage(), tiles_},
+      {&census_, census_.storage(), tiles_},
+      {&matching_, matching_.storage(), tiles_},
+      {&subpixel_, subpixel_.storage(), tiles_},
+      {&uniqueness_, uniqueness_.storage(), tiles_, config_.uniqueness.enabled},
+      {&consistency_, consistency_.storage(), tiles_, config_.consistency.enabled},
+      {&texture_, texture_.storage(), tiles_, config_.texture.enabled},
+      {&speckle_, speckle_.storage(), tiles_, config_.speckle.iterations > 0},
+      {&gap_interpolation_, gap_interpolation_.storage(), tiles_, config_.gap_interpolation.enabled},
+      last_filter(),
+      {&output_packing_, output_packing_.storage()}};
   for (const Store* store : {rows_.get(), frame_.get()}) {
     if (store == nullptr) continue;
     const Bits burst(config_.dma.buffer.burst_bytes * 8);

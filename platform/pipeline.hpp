@@ -36,6 +36,7 @@ struct StageInfo {
   const Stage* stage;
   Bits storage;            ///< line buffers and the like, beside the FIFOs
   std::size_t passes = 1;  ///< times that the stage goes through its schedule for one frame
+  bool enabled = true;     ///< false: a filter that is off, so that tokens pass it as they are
 
   std::uint64_t cycles_per_frame() const { return stage->schedule().cycles() * passes; }
   /// Dates of the first or the last pass over frame `frame`.

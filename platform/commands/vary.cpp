@@ -186,7 +186,16 @@ class Grid {
   std::string header() const {
     std::string line = "point";
     for (const Axis& axis : axes_) line += fmt::format("  {:>{}}", axis.key, width(axis));
+    if (range_varies()) line += "  disparities";
     return line + "   frame rate      latency  limit\n";
+  }
+
+  // Who varies the parallelism varies the range, unless it is given.
+  bool range_varies() const {
+    return !options_.configuration.disparity_range &&
+           std::any_of(axes_.begin(), axes_.end(), [](const Axis& axis) {
+             return axis.key == "matching.parallelism" || axis.key == "matching.iterations";
+           });
   }
 
   std::string row(std::size_t index, const TimingResult& result) const {
@@ -205,6 +214,8 @@ class Grid {
     const auto metric = [&](const char* group, const char* metric_name) {
       return result.metrics.at(group).at(metric_name).at("value");
     };
+    if (range_varies())
+      line += fmt::format("  {:>11}", metric("input", "disparity_range").get<std::int64_t>());
     line += fmt::format("  {:>7.2f} fps  {:>8.3f} ms", metric("performance", "frame_rate").get<double>(),
                         metric("latency", "exposure_to_host_mean").get<double>());
     if (!result.metrics.contains("limit")) return line + "\n";  // one frame has no steady state

@@ -51,6 +51,7 @@ struct RawValue {
   std::optional<Tag> tag;
   std::optional<std::string> source;
   std::string origin;  ///< "file:line" or the command-line argument, for messages
+  int layer = 0;  ///< 0: the preset that inherits nothing; one more for each that inherits, and for --set
 };
 
 /// Key path ("matching.p1") to what was given for it.

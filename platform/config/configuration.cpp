@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cctype>
+#include <limits>
 
 #include "platform/config/dram_device.hpp"
 #include "platform/config/preset.hpp"
@@ -37,8 +38,11 @@ RawValue iterations_for(std::int64_t range, const Schema& schema) {
   const std::string origin = fmt::format("--disparities {}", range);
   const auto parallelism = std::get<std::int64_t>(schema.find("matching.parallelism")->get());
   if (range <= 0 || range % parallelism != 0) {
+    const std::int64_t below = range / parallelism * parallelism;
     throw UserError(
-        fmt::format("{}: must be a positive multiple of matching.parallelism = {}", origin, parallelism));
+        fmt::format("{}: must be a positive multiple of matching.parallelism = {}; the nearest {}{}", origin,
+                    parallelism, below > 0 ? fmt::format("are {} and ", below) : "is ",
+                    std::max<std::int64_t>(0, below) + parallelism));
   }
   RawValue iterations;
   iterations.value = ConfigValue(range / parallelism);
@@ -62,20 +66,29 @@ void add_dram_device(RawConfig& raw, const std::vector<std::filesystem::path>& p
   }
 }
 
-/// A bus's speed means nothing to a DRAM: who changes it is told.
-void refuse_bus_keys(const RawConfig& raw, const MachineConfig& machine) {
-  if (machine.memory.model != MemoryModel::kDram) return;
-  const auto refuse = [&raw](const std::string& key, const std::string& instead) {
-    throw UserError(
-        fmt::format("{}: {} has no effect with memory.model = \"dram\"; set {}, or memory.model = \"bus\"",
-                    raw.at(key).origin, key, instead));
+/// A bus's speed means nothing to a DRAM, nor devices to a bus: who sets one of these together with the
+/// model, or on top of it, is told. Beneath it they may stand, in a preset of another model that is inherited
+/// from.
+void refuse_keys_without_effect(const RawConfig& raw, const MachineConfig& machine) {
+  const auto model = raw.find("memory.model");
+  const int layer = model == raw.end() ? -1 : model->second.layer;
+  const auto refuse = [&](const std::string& key, const std::string& instead) {
+    const auto found = raw.find(key);
+    if (found == raw.end() || found->second.layer < layer) return;
+    throw UserError(fmt::format("{}: {} has no effect with memory.model = \"{}\"; set {}",
+                                found->second.origin, key,
+                                machine.memory.model == MemoryModel::kDram ? "dram" : "bus", instead));
   };
   const MachineConfig defaults;  // which a preset that lists all keys has, too
+  if (machine.memory.model == MemoryModel::kBus) {
+    if (machine.memory.device != defaults.memory.device) refuse("memory.device", "memory.model = \"dram\"");
+    return;
+  }
   if (machine.memory.bytes_per_cycle != defaults.memory.bytes_per_cycle) {
-    refuse("memory.bytes_per_cycle", "memory.device or dram.bus_bytes");
+    refuse("memory.bytes_per_cycle", "memory.device or dram.bus_bytes, or memory.model = \"bus\"");
   }
   if (machine.clocks.memory_hz != defaults.clocks.memory_hz) {
-    refuse("clocks.memory_hz", "memory.device or dram.clock_period_ps");
+    refuse("clocks.memory_hz", "memory.device or dram.clock_period_ps, or memory.model = \"bus\"");
   }
 }
 
@@ -91,11 +104,12 @@ Configuration load_configuration(const ConfigurationRequest& request,
   RawConfig raw = load_preset(request.preset, preset_folders);
   for (const std::string& assignment : request.assignments) {
     auto [key, value] = read_assignment(assignment);
+    value.layer = std::numeric_limits<int>::max();
     raw[key] = std::move(value);
   }
   add_dram_device(raw, preset_folders);
   schema.apply(raw);
-  refuse_bus_keys(raw, result.machine);
+  refuse_keys_without_effect(raw, result.machine);
   if (request.disparity_range) {
     // The range counts in the parallelism that is in effect by now.
     raw["matching.iterations"] = iterations_for(*request.disparity_range, schema);

@@ -18,12 +18,16 @@ namespace {
 namespace fs = std::filesystem;
 using Folders = std::vector<fs::path>;
 
-bool is_path(const std::string& name) {
+}  // namespace
+
+bool is_preset_path(const std::string& name) {
   const std::string suffix = ".toml";
   const bool ends_so =
       name.size() >= suffix.size() && name.compare(name.size() - suffix.size(), suffix.size(), suffix) == 0;
   return ends_so || name.find('/') != std::string::npos;
 }
+
+namespace {
 
 std::vector<std::string> names_in(const Folders& folders) {
   std::vector<std::string> names;
@@ -46,7 +50,7 @@ std::string joined(const Folders& folders) {
 fs::path find_file(const std::string& name, const fs::path& relative_to, const Folders& folders,
                    const std::string& before, const std::string& what) {
   std::error_code ignored;
-  if (is_path(name)) {
+  if (is_preset_path(name)) {
     const fs::path file = relative_to.empty() ? fs::path(name) : (relative_to / name).lexically_normal();
     if (fs::exists(file, ignored)) return file;
     throw UserError(fmt::format("{}{} file {} does not exist", before, what, file.string()));
@@ -65,10 +69,11 @@ fs::path find_preset(const std::string& name, const fs::path& relative_to, const
   return find_file(name, relative_to, folders, before, "preset");
 }
 
-/// The inheriting file and those before it, to tell a cycle.
-void load(const fs::path& file, const Folders& folders, std::vector<fs::path>& chain, RawConfig& values) {
+/// `chain`: the inheriting file and those before it, to tell a cycle. Returns the file's layer.
+int load(const fs::path& file, const Folders& folders, std::vector<fs::path>& chain, RawConfig& values) {
   PresetFile preset = read_preset_file(file);
   chain.push_back(file);
+  int layer = 0;
   if (preset.inherits) {
     // A family of presets in one folder finds its own members first.
     Folders around{file.has_parent_path() ? file.parent_path() : fs::path(".")};
@@ -82,9 +87,13 @@ void load(const fs::path& file, const Folders& folders, std::vector<fs::path>& c
       throw UserError(fmt::format("{}: inherits goes round in a circle: {}{}", preset.inherits_origin, cycle,
                                   parent.filename().string()));
     }
-    load(parent, folders, chain, values);
+    layer = load(parent, folders, chain, values) + 1;
   }
-  for (auto& [key, value] : preset.values) values[key] = std::move(value);
+  for (auto& [key, value] : preset.values) {
+    value.layer = layer;
+    values[key] = std::move(value);
+  }
+  return layer;
 }
 
 }  // namespace

@@ -14,16 +14,16 @@ namespace parallax {
 /// PARALLAX_PRESET_PATH (separated by colons), `presets` beside the program, `../share/parallax/presets`.
 std::vector<std::filesystem::path> preset_folders();
 
-/// The file `<name>.toml` in the first folder that has it; `name` is a path when it contains a slash or ends
-/// in
-/// ".toml". `what` is what the file holds, for messages: "preset". Throws UserError: not found (says where it
-/// looked).
+/// Whether a preset's name is a path: it contains a slash or ends in ".toml".
+bool is_preset_path(const std::string& name);
+
+/// The file `<name>.toml` in the first folder that has it, or the path (is_preset_path) that it is. `what` is
+/// what the file holds, for messages: "preset". Throws UserError: not found (says where it looked).
 std::filesystem::path find_toml(const std::string& name, const std::vector<std::filesystem::path>& folders,
                                 const std::string& what);
 
-/// The values of a preset and of all that it inherits from. `name` is a path when it contains a slash or ends
-/// in
-/// ".toml". Throws UserError: not found (says where it looked), unreadable, malformed, a cycle of `inherits`.
+/// The values of a preset, by name or path, and of all that it inherits from. Throws UserError: not found
+/// (says where it looked), unreadable, malformed, a cycle of `inherits`.
 RawConfig load_preset(const std::string& name, const std::vector<std::filesystem::path>& folders);
 
 struct PresetSummary {

@@ -132,9 +132,8 @@ PresetFile read_preset_file(const path& file) {
 std::pair<std::string, RawValue> read_assignment(const std::string& argument) {
   const std::string origin = "--set " + argument;
   const auto equals = argument.find('=');
-  if (equals == std::string::npos || equals == 0 || equals + 1 == argument.size()) {
-    throw UserError(origin + ": must have the form key=value");
-  }
+  if (equals == std::string::npos || equals == 0) throw UserError(origin + ": must have the form key=value");
+  if (equals + 1 == argument.size()) throw UserError(origin + ": the value is empty");
   const std::string key = argument.substr(0, equals);
   const std::string text = argument.substr(equals + 1);
   RawConfig ignored;

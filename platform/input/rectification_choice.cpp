@@ -90,6 +90,13 @@ RectificationChoice choose_rectification(const RunOptions& options, const Offset
       throw UserError(fmt::format("{}: {}", options.map, error.what()));
     }
   } else if (calibration && calibration->model != LensModel::kRectified) {
+    if (options.calibration.empty() && range.reach() == 0) {
+      throw UserError(
+          fmt::format("the built-in scene is distorted, but rectification.window = {} rectifies nothing: "
+                      "--rectified is the scene "
+                      "without distortion",
+                      range.window));
+    }
     build_map_rows(*calibration, range, push);
   } else {
     const std::vector<OffsetPair> zeros(static_cast<std::size_t>(source.width()));

@@ -33,6 +33,13 @@ std::unique_ptr<FrameSource> scene(const RunOptions& options, const MachineConfi
       throw UserError(fmt::format("--size: '{}' is not a size such as 640x480", options.size));
     }
   }
+  const ImageLimits most = limits(config);
+  if (scene_config.width > most.width || scene_config.height > most.height) {
+    throw UserError(
+        fmt::format("the built-in scene would be {}x{}, larger than the largest size {}x{} (image.max_width, "
+                    "image.max_height)",
+                    scene_config.width, scene_config.height, most.width, most.height));
+  }
   scene_config.disparities = config.matching.range().count;
   scene_config.disparity_offset = config.matching.disparity_offset;
   scene_config.distortion = !options.rectified;

@@ -52,7 +52,8 @@ void add_core(EnergyActivity& activity, const Machine& machine) {
   double bits = 0;
   for (const StageInfo& info : machine.pipeline().stages()) {
     const StageActivity stage = stage_activity(info);
-    if (info.stage != &machine.pipeline().matcher()) activity.stage_bits += activity.frames * stage.bits_read;
+    if (info.stage != &machine.pipeline().matcher() && info.enabled)
+      activity.stage_bits += activity.frames * stage.bits_read;
     bits += stage.fifo_bits + 2 * static_cast<double>(info.storage.count()) * rows;
   }
   activity.on_chip_bytes += activity.frames * bits / kBitsPerByte;

@@ -234,7 +234,8 @@ void add_stream(MetricGroup& group, const StreamBase& stream) {
   group.add({"high_water", static_cast<std::int64_t>(s.high_water), "tokens", "Largest number held.", all});
   group.add({"mean_occupancy", held.mean(), "tokens", "Held on average over the time.", all});
   group.add({"full", percent(held.full()), "%", "Share of the time without a free place.", all});
-  group.add({"empty", percent(held.empty()), "%", "Share of the time without a token.", all});
+  const double never = held.total() == 0 ? 100 : 0;  // a stream without a token
+  group.add({"empty", percent(held.empty()) + never, "%", "Share of the time without a token.", all});
   group.add({"blocked_on_full", s.blocked_on_full.count(), "cycles",
              "Writer's cycles in which this FIFO alone held it back, being full.", all});
   group.add({"starved_on_empty", s.starved_on_empty.count(), "cycles",

@@ -132,7 +132,7 @@ std::string summary(const MetricGroup& m) {
         count("camera/dropped_frames"), count("camera/faulty_frames"), count("camera/missed_triggers"));
   }
   text += limit_line(m);
-  text += fmt::format("memory              {:.1f} of {:.0f} MB/s usable, {:.1f} %\n",
+  text += fmt::format("memory              {:.1f} of {:.0f} MB/s usable, bus taken {:.1f} % of the time\n",
                       number(m, "memory/bandwidth"), number(m, "memory/usable_bandwidth"),
                       number(m, "memory/share"));
   if (m.find("memory/row_hits") != nullptr) {

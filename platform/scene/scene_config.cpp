@@ -19,8 +19,8 @@ void require_range(const char* key, T value, T low, T high) {
 }  // namespace
 
 void SceneConfig::validate() const {
-  require_range("width", width, 1, 1856);
-  require_range("height", height, 1, 1856);
+  require_range("width", width, 1, 65536);
+  require_range("height", height, 1, 65536);
   require_range("disparities", disparities, 1, 256);
   require_range("disparity_offset", disparity_offset, 0, 255);
   if (disparity_offset + disparities > 256) {

@@ -6,10 +6,10 @@
 namespace parallax {
 
 /// What the built-in scene shows and how its two cameras see it. Every field is our own choice of default;
-/// the limits of size and disparity range are the device's.
+/// the limits of the disparity range are the device's.
 struct SceneConfig {
-  int width = 640;        ///< px, 1..1856 (largest image of the device: paper, section "Results", S)
-  int height = 480;       ///< px, 1..1856
+  int width = 640;        ///< px, 1..65536
+  int height = 480;       ///< px, 1..65536
   int disparities = 128;  ///< px, 1..256: range the scene's depths fill; a width below 3 times it narrows it
   int disparity_offset = 0;  ///< px, 0..255: smallest disparity, offset + disparities <= 256
   std::uint64_t seed = 1;    ///< any: textures, placement and noise

@@ -16,6 +16,19 @@
 namespace parallax {
 namespace {
 
+// A preset that is a path is one from the rows' folder. `origin`: of the entry, for the message.
+std::string preset_beside(const std::filesystem::path& rows, const std::string& preset,
+                          const std::string& origin) {
+  if (!is_preset_path(preset)) return preset;
+  const std::filesystem::path file =
+      rows.has_parent_path() ? rows.parent_path() / preset : std::filesystem::path(preset);
+  std::error_code ignored;
+  if (!std::filesystem::exists(file, ignored)) {
+    throw UserError(fmt::format("{}: preset file {} does not exist", origin, file.string()));
+  }
+  return file.string();
+}
+
 // One [[row]].
 class RowReader {
  public:
@@ -35,7 +48,9 @@ class RowReader {
     PublishedRow row;
     row.name = required<std::string>("name", "text");
     row.source = required<std::string>("source", "text, where it was published");
-    row.preset = optional<std::string>("preset", "text").value_or("");
+    if (const auto preset = optional<std::string>("preset", "text")) {
+      row.preset = preset_beside(file_, *preset, origin(*table_.get("preset")));
+    }
     const std::string size = required<std::string>("size", "a size such as \"640x480\"");
     char rest = 0;
     if (std::sscanf(size.c_str(), "%5dx%5d%c", &row.width, &row.height, &rest) != 2 || row.width < 1 ||
@@ -106,6 +121,10 @@ PublishedRows read_published_rows(const std::string& name,
   PublishedRows result;
   result.description = table["description"].value_or(std::string());
   result.preset = table["preset"].value_or(std::string("scenescan-pro"));
+  if (const toml::node* preset = table.get("preset")) {
+    result.preset =
+        preset_beside(file, result.preset, fmt::format("{}:{}", file.string(), preset->source().begin.line));
+  }
   for (const auto& [key, node] : table) {
     if (key == "description" || key == "preset") continue;
     if (key != "row" || !node.is_array_of_tables()) {

@@ -92,7 +92,9 @@ TEST_F(BadInput, ImagesOfOtherSizes) {
             "image wide.png is 1857x4, larger than the largest size 1856x1856");
   EXPECT_EQ(error("--left high.png --right high.png"),
             "image high.png is 4x1857, larger than the largest size 1856x1856");
-  EXPECT_EQ(error("--size 1857x16"), "scene.width is 1857, allowed is 1 to 1856");
+  EXPECT_EQ(error("--size 1857x16"),
+            "the built-in scene would be 1857x16, larger than the largest size 1856x1856 (image.max_width, "
+            "image.max_height)");
   EXPECT_EQ(pair_error("--set image.width=32"),
             "image.width = 32, but left.png has 64 px; 0 takes it from the images");
 }
@@ -105,7 +107,8 @@ TEST_F(BadInput, Configuration) {
   EXPECT_NE(pair_error("--set matching.disparity_offset=250").find("matching.disparity_offset"),
             std::string::npos);
   EXPECT_EQ(pair_error("--disparities 100"),
-            "--disparities 100: must be a positive multiple of matching.parallelism = 32");
+            "--disparities 100: must be a positive multiple of matching.parallelism = 32; the nearest are 96 "
+            "and 128");
   EXPECT_EQ(pair_error("--set camera.frame_rate=1e-9")
                 .rfind("camera.frame_rate = 1e-09: must be 0 or at least 0.001 frames/s", 0),
             0U);

@@ -177,9 +177,10 @@ TEST(Configuration, TakesTheDisparityRange) {
   EXPECT_EQ(with_range(256, {}).machine.matching.iterations, 8);
   EXPECT_EQ(with_range(192, {"matching.parallelism=64"}).machine.matching.iterations, 3);
   EXPECT_EQ(error_of([&] { with_range(100, {}); }),
-            "--disparities 100: must be a positive multiple of matching.parallelism = 32");
+            "--disparities 100: must be a positive multiple of matching.parallelism = 32; the nearest are 96 "
+            "and 128");
   EXPECT_EQ(error_of([&] { with_range(0, {}); }),
-            "--disparities 0: must be a positive multiple of matching.parallelism = 32");
+            "--disparities 0: must be a positive multiple of matching.parallelism = 32; the nearest is 32");
   EXPECT_EQ(error_of([&] { with_range(288, {}); }).substr(0, 40), "matching.disparity_offset + matching.ite");
   EXPECT_EQ(error_of([&] { with_range(32 * 257, {}); }),
             "--disparities 8224: matching.iterations = 257: must be an integer from 1 to 256");

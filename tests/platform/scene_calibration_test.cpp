@@ -91,8 +91,9 @@ TEST(SceneConfig, RejectsWhatIsOutOfRange) {
     return error_line<UserError>([&] { config.validate(); });
   };
   EXPECT_EQ(message([](SceneConfig&) {}), "no error");
-  EXPECT_EQ(message([](SceneConfig& c) { c.width = 0; }), "scene.width is 0, allowed is 1 to 1856");
-  EXPECT_EQ(message([](SceneConfig& c) { c.height = 1857; }), "scene.height is 1857, allowed is 1 to 1856");
+  EXPECT_EQ(message([](SceneConfig& c) { c.width = 0; }), "scene.width is 0, allowed is 1 to 65536");
+  EXPECT_EQ(message([](SceneConfig& c) { c.height = 65537; }),
+            "scene.height is 65537, allowed is 1 to 65536");
   EXPECT_EQ(message([](SceneConfig& c) { c.disparities = 257; }),
             "scene.disparities is 257, allowed is 1 to 256");
   EXPECT_EQ(message([](SceneConfig& c) { c.disparity_offset = -1; }),

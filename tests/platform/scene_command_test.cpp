@@ -73,7 +73,7 @@ TEST(SceneCommand, Errors) {
   };
   EXPECT_EQ(error("--size 640"), "--size is '640', expected width x height such as 640x480");
   EXPECT_EQ(error("--size 640x480x3"), "--size is '640x480x3', expected width x height such as 640x480");
-  EXPECT_EQ(error("--size 2000x480"), "scene.width is 2000, allowed is 1 to 1856");
+  EXPECT_EQ(error("--size 70000x480"), "scene.width is 70000, allowed is 1 to 65536");
   EXPECT_EQ(error("--frames 0"), "--frames is 0, allowed is 1 and more");
   EXPECT_FALSE(std::filesystem::exists(folder / "new"));
   EXPECT_EQ(error_line<UserError>([] { run("--size 8x8 --out /dev/null/x"); }),
