@@ -54,8 +54,9 @@ void BusMaster::send(::tlm::tlm_generic_payload& payload, const sc_core::sc_time
   return ::tlm::TLM_COMPLETED;
 }
 
-// An answer that came with the request is due: BEGIN_RESP, or END_RESP when the target has ended the transaction
-// itself. It is kept until then, so that a target that answers at once sees the requests of all masters in order.
+// An answer that came with the request is due: BEGIN_RESP, or END_RESP when the target has ended the
+// transaction itself. It is kept until then, so that a target that answers at once sees the requests of all
+// masters in order.
 void BusMaster::phase_due(::tlm::tlm_generic_payload& payload, const ::tlm::tlm_phase& phase) {
   const sc_core::sc_time& now = sc_core::sc_time_stamp();
   request_ends(payload, now);
@@ -91,9 +92,14 @@ void BusMaster::answered(::tlm::tlm_generic_payload& payload, const sc_core::sc_
     ++past_.requests;
   }
   ending_.erase(ending_.begin(), past);
-  const auto later = std::find_if(ending_.rbegin(), ending_.rend(), [&](const Span& s) { return s.end <= time; });
+  const auto later =
+      std::find_if(ending_.rbegin(), ending_.rend(), [&](const Span& s) { return s.end <= time; });
   ending_.insert(later.base(), {request->time, time, payload.get_data_length()});
   latencies_.add(time - request->time);
+  if (listener_ != nullptr) {
+    listener_->transferred(
+        *this, {payload.is_write(), payload.get_address(), payload.get_data_length(), request->time, time});
+  }
   requests_.erase(request);
   payload.release();
   client_.answered(time, was_full);

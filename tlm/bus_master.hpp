@@ -19,14 +19,33 @@ struct BusStatistics {
   std::uint64_t requests = 0;
 };
 
+class BusMaster;
+
+/// A request that has been answered.
+struct BusTransfer {
+  bool write = false;
+  std::uint64_t address = 0;
+  std::uint64_t bytes = 0;
+  sc_core::sc_time requested;
+  sc_core::sc_time answered;  ///< now or in the future
+};
+
+/// Told of each request of a bus master, when its answer is known; those of one master in the order of their
+/// answers, as far as the target gives them in that order.
+class BusListener {
+ public:
+  virtual ~BusListener() = default;
+  virtual void transferred(const BusMaster& master, const BusTransfer& transfer) = 0;
+};
+
 /// Told by a bus master how its requests fare.
 class BusClient {
  public:
   virtual ~BusClient() = default;
   /// The target has taken the request that was sent last, at `time`, which may be in the future.
   virtual void taken(const sc_core::sc_time& time) = 0;
-  /// The answer to a request comes at `time`, now or in the future. `was_full`: until this call, BusMaster::ready() was
-  /// false because of it.
+  /// The answer to a request comes at `time`, now or in the future. `was_full`: until this call,
+  /// BusMaster::ready() was false because of it.
   virtual void answered(const sc_core::sc_time& time, bool was_full) = 0;
 };
 
@@ -42,17 +61,20 @@ class BusMaster final : public sc_core::sc_module {
             BusClient& client);
 
   PayloadPool& pool() { return pool_; }
-  /// Whether it is known when a request may be sent: the target has taken the one before, and it is known when fewer
-  /// than `outstanding` are under way. When not, BusClient says when that has changed.
+  /// Whether it is known when a request may be sent: the target has taken the one before, and it is known
+  /// when fewer than `outstanding` are under way. When not, BusClient says when that has changed.
   bool ready() const { return requesting_ == nullptr && requests_.size() < outstanding_; }
   /// Needs ready(). When fewer than `outstanding` are under way: that date, or one in the past.
   sc_core::sc_time place_at() const;
-  /// Needs ready(). Sends a payload of the pool with its date, `time`: not before the present, place_at(), and when
-  /// the request before was taken. An answer that is an error is reported with SC_REPORT_ERROR
+  /// Needs ready(). Sends a payload of the pool with its date, `time`: not before the present, place_at(),
+  /// and when the request before was taken. An answer that is an error is reported with SC_REPORT_ERROR
   /// /parallax/dma/response.
   void send(::tlm::tlm_generic_payload& payload, const sc_core::sc_time& time);
   /// Functional access, in no time.
   void read_now(std::uint64_t address, std::uint8_t* data, std::size_t size);
+
+  /// At most one listener; nullptr for none. It must outlive the simulation.
+  void listen(BusListener* listener) { listener_ = listener; }
 
   /// Requests whose answer is not known.
   std::size_t in_flight() const { return requests_.size(); }
@@ -86,13 +108,15 @@ class BusMaster final : public sc_core::sc_module {
   PayloadPool pool_;
   std::uint32_t outstanding_;
   BusClient& client_;
-  tlm_utils::peq_with_cb_and_phase<BusMaster> later_;  // answers that came with the request and are dated later
-  std::vector<Request> requests_;                      // not answered, in order
-  std::vector<Span> ending_;                           // of those whose answer is known and was to come, by `end`
-  sc_core::sc_time occupied_;                          // by those before
-  BusStatistics past_;                                 // likewise
+  BusListener* listener_ = nullptr;
+  tlm_utils::peq_with_cb_and_phase<BusMaster>
+      later_;                      // answers that came with the request and are dated later
+  std::vector<Request> requests_;  // not answered, in order
+  std::vector<Span> ending_;       // of those whose answer is known and was to come, by `end`
+  sc_core::sc_time occupied_;      // by those before
+  BusStatistics past_;             // likewise
   LatencyHistogram latencies_;
-  ::tlm::tlm_generic_payload* requesting_ = nullptr;   // sent, END_REQ not seen
+  ::tlm::tlm_generic_payload* requesting_ = nullptr;  // sent, END_REQ not seen
 };
 
 }  // namespace parallax

@@ -31,8 +31,8 @@ class ClockDomain {
   }
   /// First edge not before kernel time `time`. `cycle_at_or_after(time_of(n)) == n`.
   Cycles cycle_at_or_after(const sc_core::sc_time& time) const {
-    // The picosecond that edge n is rounded down to is not before `time`, a whole number of picoseconds, exactly
-    // when the edge itself is not.
+    // The picosecond that edge n is rounded down to is not before `time`, a whole number of picoseconds,
+    // exactly when the edge itself is not.
     return Cycles(rate_.ceil(time.value()));
   }
   Cycles cycle_at_or_after(Picoseconds date) const {

@@ -79,8 +79,8 @@ void DramController::plan() {
   planned_ = true;
 }
 
-// The plan when all rows are open and may be read and written, which is simply the oldest burst's; false when it
-// takes more to know.
+// The plan when all rows are open and may be read and written, which is simply the oldest burst's; false when
+// it takes more to know.
 bool DramController::plan_oldest(Plan& plan) const {
   const std::vector<Entry>& entries = plan_writing_ ? writes_ : reads_;
   if (groups_.size() > 1 || misses_[plan_writing_ ? 1 : 0] != 0 || entries.empty()) return false;

@@ -27,7 +27,8 @@ class LatencyHistogram {
   const sc_core::sc_time& largest() const { return largest_; }
   /// Zero without values.
   sc_core::sc_time mean() const { return count_ == 0 ? sum_ : sum_ / static_cast<double>(count_); }
-  /// That `share` (0 to 1) of the values are at most this, which is up to 1/64 too large. Zero without values.
+  /// That `share` (0 to 1) of the values are at most this, which is up to 1/64 too large. Zero without
+  /// values.
   sc_core::sc_time percentile(double share) const {
     const auto wanted = static_cast<std::uint64_t>(std::ceil(share * static_cast<double>(count_)));
     std::uint64_t seen = 0;
@@ -41,7 +42,8 @@ class LatencyHistogram {
   }
 
  private:
-  static constexpr unsigned kBits = 6;  // values below 2^kBits have a bin each, then so do as many parts an octave
+  static constexpr unsigned kBits =
+      6;  // values below 2^kBits have a bin each, then so do as many parts an octave
   static constexpr std::uint64_t kParts = 1u << kBits;
 
   static std::size_t bin_of(std::uint64_t value) {

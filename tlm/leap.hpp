@@ -135,6 +135,7 @@ class Leap {
 
   void materialize(Member& member, std::uint64_t periods);
   void materialize(Link& link, std::uint64_t periods);
+  void announce();
   void release();
   void set_limits(bool limited, bool with_period);
   sc_core::sc_time find_due() const;

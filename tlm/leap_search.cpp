@@ -245,6 +245,7 @@ bool Leap::observe() {
   }
   periods_ = materialized_ = 0;
   holding_ = same;
+  if (same) announce();
   if (same) due_ = find_due();
   release_asked_ = false;
   for (Member& member : members_) {

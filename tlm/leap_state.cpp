@@ -129,9 +129,24 @@ void Leap::materialize(Link& link, std::uint64_t periods) {
   }
 }
 
+// Lets streams whose fill repeats itself tell it from here on.
+void Leap::announce() {
+  for (Link& link : links_) {
+    if (!link.core || link.reads != link.writes || link.reads == 0) continue;
+    StreamBase::Ahead& ahead = link.stream->ahead_;
+    ahead = {&periods_, &materialized_, Cycles(period_)};
+    for (const auto& [level, cycles] : link.levels) {
+      ahead.token_cycles += level * cycles;
+      if (level == 0) ahead.empty_cycles += cycles;
+      if (level == link.stream->depth()) ahead.full_cycles += cycles;
+    }
+  }
+}
+
 // Gives the stages back to themselves.
 void Leap::release() {
   materialize();
+  for (const Link& link : links_) link.stream->ahead_ = {};
   holding_ = false;
   release_asked_ = false;
   for (Member& member : members_) {

@@ -16,7 +16,8 @@ class PayloadPool final : public ::tlm::tlm_mm_interface {
  public:
   explicit PayloadPool(std::size_t buffer_bytes) : buffer_bytes_(buffer_bytes) {}
 
-  /// A payload with one reference, ready to send; `length` <= buffer_bytes. Without `data` it carries TrafficOnly.
+  /// A payload with one reference, ready to send; `length` <= buffer_bytes. Without `data` it carries
+  /// TrafficOnly.
   ::tlm::tlm_generic_payload& take(::tlm::tlm_command command, std::uint64_t address, std::size_t length,
                                    bool data = true);
 

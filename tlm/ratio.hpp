@@ -5,8 +5,9 @@
 
 namespace parallax {
 
-/// Multiplies by numerator / denominator, exactly and without a division: by 2^63 times the ratio's fractional part,
-/// rounded down. The error is below value / 2^63; only where that leaves the result open is it multiplied out.
+/// Multiplies by numerator / denominator, exactly and without a division: by 2^63 times the ratio's
+/// fractional part, rounded down. The error is below value / 2^63; only where that leaves the result open is
+/// it multiplied out.
 class Ratio {
  public:
   /// 0 < numerator, denominator < 2^63.

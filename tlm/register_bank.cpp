@@ -116,7 +116,8 @@ bool RegisterBank::access(::tlm::tlm_generic_payload& payload) {
     return false;
   };
   if (payload.get_byte_enable_ptr() != nullptr) return refuse(::tlm::TLM_BYTE_ENABLE_ERROR_RESPONSE);
-  if (address % kBytes != 0 || length == 0 || length % kBytes != 0 || payload.get_streaming_width() < length) {
+  if (address % kBytes != 0 || length == 0 || length % kBytes != 0 ||
+      payload.get_streaming_width() < length) {
     return refuse(::tlm::TLM_BURST_ERROR_RESPONSE);
   }
   for (std::uint32_t i = 0; i < length; i += kBytes) {

@@ -46,12 +46,12 @@ struct RegisterBlock {
   std::vector<Register> registers;
 };
 
-/// Blocks of 32-bit registers behind a TLM-2.0 socket that any number of initiators may bind. b_transport takes
-/// `access_time` for each register, annotated; nb_transport answers at once with that delay; transport_dbg takes
-/// none and has the effect of a read or a write. An access is one or more whole registers:
-/// addresses and lengths that are no multiple of 4 are answered with TLM_BURST_ERROR_RESPONSE, an address
-/// without a register with TLM_ADDRESS_ERROR_RESPONSE, byte enables and streaming with their errors; nothing is
-/// written then.
+/// Blocks of 32-bit registers behind a TLM-2.0 socket that any number of initiators may bind. b_transport
+/// takes `access_time` for each register, annotated; nb_transport answers at once with that delay;
+/// transport_dbg takes none and has the effect of a read or a write. An access is one or more whole
+/// registers: addresses and lengths that are no multiple of 4 are answered with TLM_BURST_ERROR_RESPONSE, an
+/// address without a register with TLM_ADDRESS_ERROR_RESPONSE, byte enables and streaming with their errors;
+/// nothing is written then.
 class RegisterBank final : public sc_core::sc_module {
  public:
   tlm_utils::multi_passthrough_target_socket<RegisterBank> socket{"socket"};
@@ -65,7 +65,8 @@ class RegisterBank final : public sc_core::sc_module {
   void set(const std::string& block, const std::string& reg, const std::string& field, std::uint32_t value);
   /// Called after a write from the bus has changed the register, with the bits of its triggers that were
   /// written as 1.
-  void on_write(const std::string& block, const std::string& reg, std::function<void(std::uint32_t triggers)> call);
+  void on_write(const std::string& block, const std::string& reg,
+                std::function<void(std::uint32_t triggers)> call);
   /// Called before a read from the bus, to bring fields up to date.
   void on_read(const std::string& block, const std::string& reg, std::function<void()> call);
 

@@ -21,7 +21,7 @@ enum class StageActivity : std::uint8_t {
   kMemory,        ///< held back by a stream from or to a memory port, within a frame
   kSynchroniser,  ///< held back by a token or a place that is there, but still on its way between clocks
   kBlanking,      ///< declared row and frame overheads, and no frame there: waiting for a frame's first token
-              ///< from the memory
+                  ///< from the memory
 };
 constexpr std::array<StageActivity, 6> kAllStageActivities{
     StageActivity::kBusy,   StageActivity::kStarved,      StageActivity::kBlocked,

@@ -41,6 +41,16 @@ struct StreamStatistics {
   Cycles starved_on_empty;       ///< reader's cycles in which only this stream's lack of a token held it back
 };
 
+/// How full a FIFO has been until a date, as its writer sees it: what a place counts, see
+/// StreamBase::occupancy().
+struct FifoFill {
+  Cycles until;                    ///< of the writer's clock; nothing before it can change
+  std::uint64_t level = 0;         ///< tokens held then
+  std::uint64_t token_cycles = 0;  ///< tokens held, summed over the cycles until then
+  std::uint64_t full_cycles = 0;   ///< without a free place
+  std::uint64_t empty_cycles = 0;  ///< without a token
+};
+
 class StreamBase;
 
 /// Told of every date as it becomes known, in the order of the stream's tokens on each side.
@@ -97,6 +107,9 @@ class StreamBase : public sc_core::sc_prim_channel, public virtual sc_core::sc_i
     settle();
     return occupancy_;
   }
+  /// The same in short, as far as it is known without going through a leap that is under way: cheap to ask
+  /// for often.
+  FifoFill fill() const;
   Dataflow& dataflow() const { return dataflow_; }
   /// At most one listener; nullptr for none. It must outlive the simulation.
   void listen(StreamListener* listener) { listener_ = listener; }
@@ -171,6 +184,12 @@ class StreamBase : public sc_core::sc_prim_channel, public virtual sc_core::sc_i
  private:
   friend class Leap;
   friend class Stage;
+  struct Ahead {  // a leap under way over this stream, periods that are not in its numbers yet
+    const std::uint64_t* periods_gone = nullptr;   // through in all
+    const std::uint64_t* periods_added = nullptr;  // of these, in the numbers
+    Cycles period;
+    std::uint64_t token_cycles = 0, full_cycles = 0, empty_cycles = 0;  // counted in one
+  };
   struct Watch {         // what Leap wants to know of one period
     bool binds = false;  // a date of this stream held its reader (writer) back
     std::vector<Cycles>
@@ -233,6 +252,7 @@ class StreamBase : public sc_core::sc_prim_channel, public virtual sc_core::sc_i
   Watch write_watch_;
   std::vector<std::pair<std::uint64_t, std::uint64_t>>* counted_ =
       nullptr;  // Leap's copy of what occupancy_ adds
+  Ahead ahead_;
   Cycles last_read_{-1};
   Cycles last_write_{-1};
   Cycles read_wait_began_{0};

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <algorithm>
 #include <deque>
 #include <sstream>
 
@@ -82,6 +83,78 @@ RC_GTEST_PROP(Leap, ChangesNothingInThePipeline, ()) {
   };
   const std::string difference = first_difference(run(0), run(*rc::gen::element<std::uint64_t>(50, 600)));
   if (!difference.empty()) RC_FAIL(difference);
+}
+
+// Asks all streams again and again how full they have been, in the midst of leaps.
+class FillProbe final : public sc_core::sc_module {
+ public:
+  FillProbe(const Dataflow& dataflow, const sc_core::sc_time& pace, int times)
+      : sc_module(sc_core::sc_module_name("probe")), dataflow_(dataflow), pace_(pace), times_(times) {
+    SC_HAS_PROCESS(FillProbe);
+    SC_THREAD(run);
+  }
+  std::vector<std::vector<FifoFill>> fills;  // of each stream
+
+ private:
+  void run() {
+    fills.resize(dataflow_.streams().size());
+    for (int i = 0; i < times_; ++i) {
+      wait(pace_);
+      for (std::size_t s = 0; s < fills.size(); ++s) fills[s].push_back(dataflow_.streams()[s]->fill());
+    }
+  }
+
+  const Dataflow& dataflow_;
+  const sc_core::sc_time pace_;
+  const int times_;
+};
+
+// What was asked, from the dates of all tokens.
+std::string differences(const GraphEdge& edge, const EdgeDates& dates, const FifoFill& fill) {
+  std::vector<std::pair<std::int64_t, int>> changes;  // of the level
+  for (const std::int64_t date : dates.written) changes.emplace_back(date, +1);
+  for (const std::int64_t date : dates.read) changes.emplace_back(date + edge.read_to_write, -1);
+  std::sort(changes.begin(), changes.end());
+  FifoFill expected;
+  const auto pass = [&](std::int64_t until) {
+    const auto cycles = static_cast<std::uint64_t>(until - expected.until.count());
+    expected.token_cycles += expected.level * cycles;
+    if (expected.level == 0) expected.empty_cycles += cycles;
+    if (expected.level == edge.depth) expected.full_cycles += cycles;
+    expected.until = Cycles(until);
+  };
+  for (const auto& [date, change] : changes) {
+    if (Cycles(date) >= fill.until) break;
+    pass(date);
+    expected.level = static_cast<std::uint64_t>(static_cast<std::int64_t>(expected.level) + change);
+  }
+  pass(fill.until.count());
+  const auto text = [](const FifoFill& f) {
+    return fmt::format("until {}: {} token cycles, {} full, {} empty", f.until.count(), f.token_cycles,
+                       f.full_cycles, f.empty_cycles);
+  };
+  return text(expected) == text(fill) ? "" : text(expected) + ", have " + text(fill) + "\n";
+}
+
+RC_GTEST_PROP(Leap, TheFillOfAFifoIsKnownWithin, ()) {
+  const Graph graph = RandomGraph::make(6);
+  const auto threads = *rc::gen::arbitrary<std::uint64_t>();
+  const auto interval = *rc::gen::element<std::uint64_t>(10, 40);
+  const auto pace = *rc::gen::inRange(1, 200);
+  const std::string wrong = in_child([&] {
+    ModelSimulation simulation(graph, threads, interval);
+    FillProbe probe(simulation.dataflow(), sc_core::sc_time(pace, sc_core::SC_NS), 100);
+    const std::vector<EdgeDates> dates = simulation.run();
+    std::string text;
+    for (std::size_t e = 0; e < graph.edges.size(); ++e) {
+      const GraphEdge& edge = graph.edges[e];
+      const auto clock = [&](int node) { return graph.nodes[static_cast<std::size_t>(node)].clock; };
+      if (clock(edge.from) != clock(edge.to)) continue;  // freed in cycles of another clock
+      for (const FifoFill& fill : probe.fills[e]) text += differences(edge, dates[e], fill);
+    }
+    return text;
+  });
+  if (!wrong.empty()) RC_FAIL(wrong.substr(0, 1000));
 }
 
 // source -> stage -> stage -> sink, all actors, `tokens` of them.
