@@ -25,6 +25,7 @@ sc_core::sc_time BusMaster::place_at() const {
 void BusMaster::send(::tlm::tlm_generic_payload& payload, const sc_core::sc_time& time) {
   requests_.push_back({&payload, time});
   requesting_ = &payload;
+  if (listener_ != nullptr) listener_->requested(*this, time);
   const sc_core::sc_time& now = sc_core::sc_time_stamp();
   ::tlm::tlm_phase phase = ::tlm::BEGIN_REQ;
   sc_core::sc_time delay = time - now;

@@ -30,11 +30,12 @@ struct BusTransfer {
   sc_core::sc_time answered;  ///< now or in the future
 };
 
-/// Told of each request of a bus master, when its answer is known; those of one master in the order of their
-/// answers, as far as the target gives them in that order.
+/// Told of each request of a bus master and of its answer, in the order in which they are sent and known.
 class BusListener {
  public:
   virtual ~BusListener() = default;
+  /// A request is sent at `time`, now or in the future.
+  virtual void requested(const BusMaster& master, const sc_core::sc_time& time) = 0;
   virtual void transferred(const BusMaster& master, const BusTransfer& transfer) = 0;
 };
 

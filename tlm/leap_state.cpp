@@ -134,7 +134,7 @@ void Leap::announce() {
   for (Link& link : links_) {
     if (!link.core || link.reads != link.writes || link.reads == 0) continue;
     StreamBase::Ahead& ahead = link.stream->ahead_;
-    ahead = {&periods_, &materialized_, Cycles(period_)};
+    ahead = {&periods_, &materialized_, Cycles(period_), link.writes};
     for (const auto& [level, cycles] : link.levels) {
       ahead.token_cycles += level * cycles;
       if (level == 0) ahead.empty_cycles += cycles;

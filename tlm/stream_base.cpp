@@ -141,11 +141,13 @@ void StreamBase::settle() const {
 
 FifoFill StreamBase::fill() const {
   settle();
-  FifoFill fill{settled_until_, settled_writes_ - freed_, occupancy_.level_cycles(), occupancy_.full(),
-                occupancy_.empty()};
+  FifoFill fill{settled_until_,       settled_writes_,    freed_, occupancy_.level_cycles(),
+                occupancy_.full(), occupancy_.empty()};
   if (ahead_.periods_gone == nullptr) return fill;
   const std::uint64_t periods = *ahead_.periods_gone - *ahead_.periods_added;
   fill.until += ahead_.period * static_cast<std::int64_t>(periods);
+  fill.written += ahead_.tokens * periods;
+  fill.freed += ahead_.tokens * periods;
   fill.token_cycles += ahead_.token_cycles * periods;
   fill.full_cycles += ahead_.full_cycles * periods;
   fill.empty_cycles += ahead_.empty_cycles * periods;

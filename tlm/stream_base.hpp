@@ -45,10 +45,13 @@ struct StreamStatistics {
 /// StreamBase::occupancy().
 struct FifoFill {
   Cycles until;                    ///< of the writer's clock; nothing before it can change
-  std::uint64_t level = 0;         ///< tokens held then
+  std::uint64_t written = 0;       ///< tokens by then
+  std::uint64_t freed = 0;         ///< of these, tokens whose place can be written again
   std::uint64_t token_cycles = 0;  ///< tokens held, summed over the cycles until then
   std::uint64_t full_cycles = 0;   ///< without a free place
   std::uint64_t empty_cycles = 0;  ///< without a token
+
+  std::uint64_t level() const { return written - freed; }  ///< tokens held then
 };
 
 class StreamBase;
@@ -188,7 +191,7 @@ class StreamBase : public sc_core::sc_prim_channel, public virtual sc_core::sc_i
     const std::uint64_t* periods_gone = nullptr;   // through in all
     const std::uint64_t* periods_added = nullptr;  // of these, in the numbers
     Cycles period;
-    std::uint64_t token_cycles = 0, full_cycles = 0, empty_cycles = 0;  // counted in one
+    std::uint64_t tokens = 0, token_cycles = 0, full_cycles = 0, empty_cycles = 0;  // of one
   };
   struct Watch {         // what Leap wants to know of one period
     bool binds = false;  // a date of this stream held its reader (writer) back

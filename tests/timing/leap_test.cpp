@@ -118,22 +118,29 @@ std::string differences(const GraphEdge& edge, const EdgeDates& dates, const Fif
   FifoFill expected;
   const auto pass = [&](std::int64_t until) {
     const auto cycles = static_cast<std::uint64_t>(until - expected.until.count());
-    expected.token_cycles += expected.level * cycles;
-    if (expected.level == 0) expected.empty_cycles += cycles;
-    if (expected.level == edge.depth) expected.full_cycles += cycles;
+    expected.token_cycles += expected.level() * cycles;
+    if (expected.level() == 0) expected.empty_cycles += cycles;
+    if (expected.level() == edge.depth) expected.full_cycles += cycles;
     expected.until = Cycles(until);
   };
+  std::uint64_t last_written = 0, last_freed = 0;  // those at the very date may count, or not yet
   for (const auto& [date, change] : changes) {
-    if (Cycles(date) >= fill.until) break;
-    pass(date);
-    expected.level = static_cast<std::uint64_t>(static_cast<std::int64_t>(expected.level) + change);
+    if (Cycles(date) > fill.until) break;
+    if (Cycles(date) < fill.until) {
+      pass(date);
+      ++(change > 0 ? expected.written : expected.freed);
+    } else {
+      ++(change > 0 ? last_written : last_freed);
+    }
   }
   pass(fill.until.count());
   const auto text = [](const FifoFill& f) {
-    return fmt::format("until {}: {} token cycles, {} full, {} empty", f.until.count(), f.token_cycles,
-                       f.full_cycles, f.empty_cycles);
+    return fmt::format("until {}: {} token cycles, {} full, {} empty", f.until.count(), f.token_cycles, f.full_cycles,
+                       f.empty_cycles);
   };
-  return text(expected) == text(fill) ? "" : text(expected) + ", have " + text(fill) + "\n";
+  const bool counts = fill.written >= expected.written && fill.written <= expected.written + last_written &&
+                      fill.freed >= expected.freed && fill.freed <= expected.freed + last_freed;
+  return counts && text(expected) == text(fill) ? "" : text(expected) + ", have " + text(fill) + "\n";
 }
 
 RC_GTEST_PROP(Leap, TheFillOfAFifoIsKnownWithin, ()) {
