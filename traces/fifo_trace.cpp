@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "traces/fifo_trace.hpp"
+
+namespace parallax {
+namespace {
+
+Picoseconds token_date(const TokenTransfer& token) { return token.begin; }
+void tell_token(const TokenTransfer& token, TraceSink& sink) { sink.token(token); }
+
+// Whether a span holds one level all the time.
+bool is_still(const FifoSpan& span) {
+  return span.written == 0 && span.freed == 0 && span.token_cycles == span.level * span.cycles;
+}
+
+}  // namespace
+
+FifoTrace::FifoTrace(StreamBase& stream, PartId id, const std::shared_ptr<const RowEnds>& rows,
+                     const TraceWindow& window, bool tokens)
+    : stream_(stream),
+      id_(id),
+      window_(window),
+      spans_([](const FifoSpan& span) { return span.end; },
+             [](const FifoSpan& span, TraceSink& sink) { sink.fifo(span); }),
+      written_(token_date, tell_token),
+      read_(token_date, tell_token) {
+  if (rows) {
+    for (Side* side : {&sampled_writes_, &sampled_reads_, &token_writes_, &token_reads_}) side->rows.emplace(rows);
+  }
+  if (tokens) stream.listen(this);
+}
+
+void FifoTrace::sample() {
+  const FifoFill fill = stream_.fill();
+  if (fill.until <= last_.until) return;
+  const ClockDomain& clock = stream_.writer_clock();
+  FifoSpan span;
+  span.stream = id_;
+  span.begin = clock.date_of(last_.until);
+  span.end = clock.date_of(fill.until);
+  span.cycles = static_cast<std::uint64_t>((fill.until - last_.until).count());
+  span.token_cycles = fill.token_cycles - last_.token_cycles;
+  span.full_cycles = fill.full_cycles - last_.full_cycles;
+  span.empty_cycles = fill.empty_cycles - last_.empty_cycles;
+  span.written = fill.written - last_.written;
+  span.freed = fill.freed - last_.freed;
+  span.level = fill.level();
+  // In the window is what one of its sides does in it.
+  const bool inside = window_.contains(sampled_writes_.place(), span.begin, span.end) ||
+                      window_.contains(sampled_reads_.place(), span.begin, span.end);
+  sampled_writes_.advance(span.written);
+  sampled_reads_.advance(span.freed);
+  last_ = fill;
+  if (has_pending_ && inside && is_still(span) && is_still(pending_) && span.level == pending_.level) {
+    pending_.end = span.end;
+    pending_.cycles += span.cycles;
+    pending_.token_cycles += span.token_cycles;
+    pending_.full_cycles += span.full_cycles;
+    pending_.empty_cycles += span.empty_cycles;
+    return;
+  }
+  push_pending();
+  pending_ = span;
+  has_pending_ = inside;
+  // Only what may still go on is held back, so that the others are told in time.
+  if (!is_still(pending_)) push_pending();
+}
+
+void FifoTrace::push_pending() {
+  if (has_pending_) spans_.push(pending_);
+  has_pending_ = false;
+}
+
+void FifoTrace::finish() {
+  sample();
+  push_pending();
+}
+
+void FifoTrace::written(const StreamBase& stream, Cycles cycle) {
+  push(written_, token_writes_, false, stream.writer_clock(), cycle);
+}
+
+void FifoTrace::read(const StreamBase& stream, Cycles cycle) {
+  push(read_, token_reads_, true, stream.reader_clock(), cycle);
+}
+
+void FifoTrace::push(EventLane<TokenTransfer>& lane, Side& side, bool is_read, const ClockDomain& clock,
+                     Cycles cycle) {
+  TokenTransfer token;
+  token.stream = id_;
+  token.read = is_read;
+  token.place = side.place();
+  side.advance(1);
+  token.begin = clock.date_of(cycle);
+  token.end = clock.date_of(cycle + Cycles(1));
+  if (window_.contains(token.place, token.begin, token.end)) lane.push(token);
+}
+
+}  // namespace parallax

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "traces/json_trace.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "traces/trace_columns.hpp"
+
+namespace parallax {
+namespace {
+
+// The members of one event; no name of a part needs to be escaped.
+class Members {
+ public:
+  explicit Members(TextBuffer& out) : out_(out) {}
+  void text(const char* name, std::string_view value) {
+    put(name);
+    out_.add('"');
+    out_.add(value);
+    out_.add('"');
+  }
+  void number(const char* name, std::int64_t value) {
+    put(name);
+    out_.add(value);
+  }
+  void flag(const char* name, bool value) {
+    put(name);
+    out_.add(std::string_view(value ? "true" : "false"));
+  }
+
+ private:
+  void put(const char* name) {
+    out_.add(std::string_view(",\""));
+    out_.add(std::string_view(name));
+    out_.add(std::string_view("\":"));
+  }
+  TextBuffer& out_;
+};
+
+}  // namespace
+
+void JsonTrace::begin(const TraceParts& parts) {
+  parts_ = parts;
+  auto stages = nlohmann::ordered_json::array();
+  for (const TraceParts::StagePart& stage : parts.stages) stages.push_back({{"name", stage.name}, {"path", stage.path}});
+  auto streams = nlohmann::ordered_json::array();
+  for (const TraceParts::StreamPart& stream : parts.streams) {
+    streams.push_back({{"name", stream.name},
+                       {"path", stream.path},
+                       {"depth_tokens", stream.depth},
+                       {"width_bits", stream.width},
+                       {"writer", stream.writer},
+                       {"reader", stream.reader}});
+  }
+  auto ports = nlohmann::ordered_json::array();
+  for (const TraceParts::PortPart& port : parts.ports) ports.push_back({{"name", port.name}, {"path", port.path}});
+  const nlohmann::ordered_json head{{"time_unit", "ps"},   {"frames", parts.frames}, {"rows", parts.rows},
+                                    {"tiles", parts.tiles}, {"stages", stages},       {"streams", streams},
+                                    {"ports", ports}};
+  std::string text = head.dump(1);
+  text.erase(text.rfind('\n'));
+  out_.add(text);
+  out_.add(std::string_view(",\n \"events\": ["));
+}
+
+template <class Event>
+void JsonTrace::put(const Event& event) {
+  out_.add(std::string_view(first_ ? "\n{\"table\":\"" : ",\n{\"table\":\""));
+  first_ = false;
+  out_.add(std::string_view(trace_columns::table_of(event)));
+  out_.add('"');
+  Members members(out_);
+  trace_columns::put(members, parts_, event);
+  out_.add('}');
+  out_.write_if_full();
+}
+
+void JsonTrace::end(Picoseconds time, const std::vector<EndlessWait>& waits) {
+  auto list = nlohmann::ordered_json::array();
+  for (const EndlessWait& wait : waits) {
+    list.push_back({{"waiter", wait.waiter},
+                    {"stream", wait.stream},
+                    {"state", wait.on_full ? "full" : "empty"},
+                    {"depth_tokens", wait.depth}});
+  }
+  out_.add(std::string_view("\n],\n \"end_ps\": "));
+  out_.add(time.count());
+  out_.add(std::string_view(",\n \"waits\": "));
+  out_.add(list.dump());
+  out_.add(std::string_view("\n}\n"));
+  out_.write();
+}
+
+}  // namespace parallax

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "traces/port_trace.hpp"
+
+#include <algorithm>
+
+namespace parallax {
+namespace {
+
+Picoseconds date(const sc_core::sc_time& time) { return Picoseconds(static_cast<std::int64_t>(time.value())); }
+
+}  // namespace
+
+PortTrace::PortTrace(BusMaster& master, PartId id, const std::shared_ptr<const RowEnds>& rows,
+                     const TraceWindow& window, bool bursts)
+    : id_(id),
+      window_(window),
+      wants_bursts_(bursts),
+      cursor_(rows),
+      rows_([](const PortRow& row) { return row.end; }, [](const PortRow& row, TraceSink& sink) { sink.port_row(row); }),
+      requests_([](const BurstRequest& request) { return request.time; },
+                [](const BurstRequest& request, TraceSink& sink) { sink.requested(request); }),
+      bursts_([](const BurstTransfer& burst) { return burst.answered; },
+              [](const BurstTransfer& burst, TraceSink& sink) { sink.burst(burst); }) {
+  row_.port = id;
+  row_.place = cursor_.place();
+  master.listen(this);
+}
+
+void PortTrace::requested(const BusMaster&, const sc_core::sc_time& time) {
+  if (wants_bursts_) requests_.push({id_, date(time)});
+}
+
+void PortTrace::transferred(const BusMaster&, const BusTransfer& transfer) {
+  BurstTransfer burst;
+  burst.port = id_;
+  burst.place = cursor_.place();
+  burst.write = transfer.write;
+  burst.address = transfer.address;
+  burst.bytes = transfer.bytes;
+  burst.requested = date(transfer.requested);
+  burst.answered = date(transfer.answered);
+  if (wants_bursts_ && window_.contains(burst.place, burst.requested, burst.answered)) bursts_.push(burst);
+  // A burst counts for the row in which it begins; its bytes for the rows that they belong to.
+  ++row_.bursts;
+  row_.latency += burst.answered - burst.requested;
+  row_.longest_latency = std::max(row_.longest_latency, burst.answered - burst.requested);
+  row_.end = std::max(row_.end, burst.answered);
+  for (std::uint64_t left = burst.bytes; left > 0;) {
+    const std::uint64_t bytes = std::min(left, cursor_.left_in_row());
+    row_.bytes += bytes;
+    left -= bytes;
+    const bool ends = bytes == cursor_.left_in_row();
+    cursor_.advance(bytes);
+    if (!ends) break;
+    if (window_.contains(row_.place, row_.begin, row_.end)) rows_.push(row_);
+    const Picoseconds end = row_.end;
+    row_ = {};
+    row_.port = id_;
+    row_.place = cursor_.place();
+    row_.begin = row_.end = end;
+  }
+}
+
+void PortTrace::finish() {
+  if (row_.bursts > 0 && window_.contains(row_.place, row_.begin, row_.end)) rows_.push(row_);
+}
+
+}  // namespace parallax

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+
+#include "tlm/bus_master.hpp"
+#include "traces/row_ends.hpp"
+#include "traces/trace_lane.hpp"
+#include "traces/trace_window.hpp"
+
+namespace parallax {
+
+/// Makes rows, and on request bursts, of what passes a memory port.
+class PortTrace final : public BusListener {
+ public:
+  /// `rows`: of the bytes, in the order in which they are asked for.
+  PortTrace(BusMaster& master, PartId id, const std::shared_ptr<const RowEnds>& rows, const TraceWindow& window,
+            bool bursts);
+
+  TraceLane& rows() { return rows_; }
+  TraceLane& requests() { return requests_; }
+  TraceLane& bursts() { return bursts_; }
+  void finish();
+
+ private:
+  void requested(const BusMaster& master, const sc_core::sc_time& time) override;
+  void transferred(const BusMaster& master, const BusTransfer& transfer) override;
+
+  const PartId id_;
+  const TraceWindow& window_;
+  const bool wants_bursts_;
+  RowCursor cursor_;
+  PortRow row_;  // under way
+
+  EventLane<PortRow> rows_;
+  EventLane<BurstRequest> requests_;
+  EventLane<BurstTransfer> bursts_;
+};
+
+}  // namespace parallax

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "traces/recorder.hpp"
+
+namespace parallax {
+namespace {
+
+Picoseconds now() { return Picoseconds(static_cast<std::int64_t>(sc_core::sc_time_stamp().value())); }
+
+}  // namespace
+
+Recorder::Recorder(const sc_core::sc_module_name& name, const RecorderConfig& config, Dataflow& dataflow)
+    : sc_module(name),
+      config_(config),
+      dataflow_(dataflow),
+      steps_([](const Step& step) { return step.time; },
+             [](const Step& step, TraceSink& sink) { sink.frame_step(step.frame, step.step, step.time); }),
+      frames_([](const FrameRecord& record) { return record.at[static_cast<std::size_t>(FrameStep::kAtHost)]; },
+              [](const FrameRecord& record, TraceSink& sink) { sink.frame(record); }) {
+  parts_.rows = config.rows;
+  parts_.tiles = config.tiles;
+  parts_.frames = config.frames;
+  parts_.tokens = config.tokens;
+  lanes_ = {&steps_, &frames_};
+  SC_HAS_PROCESS(Recorder);
+  SC_METHOD(go_on);
+}
+
+void Recorder::add(StreamBase& stream, const std::shared_ptr<const RowEnds>& rows) {
+  const auto id = static_cast<PartId>(parts_.streams.size());
+  TraceParts::StreamPart part;
+  part.name = stream.basename();
+  part.path = stream.name();
+  part.depth = stream.depth();
+  part.width = stream.width().count();
+  part.write_cycle = stream.writer_clock().date_of(Cycles(1));
+  part.read_cycle = stream.reader_clock().date_of(Cycles(1));
+  parts_.streams.push_back(part);
+  stream_ids_[&stream] = id;
+  streams_.push_back(&stream);
+  FifoTrace& trace = fifos_.emplace_back(stream, id, rows, config_.window, config_.tokens);
+  lanes_.push_back(&trace.spans());
+  if (!config_.tokens) return;
+  lanes_.push_back(&trace.written());
+  lanes_.push_back(&trace.read());
+}
+
+void Recorder::add(Stage& stage, const StagePorts& ports) {
+  const auto id = static_cast<PartId>(parts_.stages.size());
+  parts_.stages.push_back({stage.basename(), stage.name()});
+  StageTrace& trace = stages_.emplace_back(stage, id, ports, config_.window, config_.tokens,
+                                           [this](const StreamBase* stream) { return id_of(stream); });
+  lanes_.push_back(&trace.rows());
+  if (config_.tokens) lanes_.push_back(&trace.firings());
+}
+
+void Recorder::add(BusMaster& master, const std::string& name, const std::shared_ptr<const RowEnds>& rows) {
+  const auto id = static_cast<PartId>(parts_.ports.size());
+  parts_.ports.push_back({name, master.name()});
+  PortTrace& trace = ports_.emplace_back(master, id, rows, config_.window, config_.tokens);
+  lanes_.push_back(&trace.rows());
+  if (!config_.tokens) return;
+  lanes_.push_back(&trace.requests());
+  lanes_.push_back(&trace.bursts());
+}
+
+PartId Recorder::id_of(const StreamBase* stream) const {
+  const auto found = stream_ids_.find(stream);
+  return found == stream_ids_.end() ? kNoPart : found->second;
+}
+
+void Recorder::frame_step(std::int64_t frame, FrameStep step) {
+  if (config_.window.contains({frame, 0, 0}, now(), now())) steps_.push({frame, step, now()});
+}
+
+void Recorder::frame(const FrameRecord& record) {
+  const Picoseconds begin = record.at[0];
+  if (config_.window.contains({record.frame, 0, 0}, begin, now())) frames_.push(record);
+}
+
+void Recorder::start_of_simulation() {
+  for (std::size_t i = 0; i < streams_.size(); ++i) {
+    parts_.streams[i].writer = streams_[i]->writer_name();
+    parts_.streams[i].reader = streams_[i]->reader_name();
+  }
+  for (TraceSink* sink : sinks_) sink->begin(parts_);
+}
+
+void Recorder::go_on() {
+  for (FifoTrace& fifo : fifos_) fifo.sample();
+  // Streams that are in a leap tell of their tokens when it has come to an end, or when they are asked.
+  if (config_.tokens) dataflow_.bring_up_to_date();
+  tell_until(now(), lanes_, sinks_);
+  // A machine that has come to rest must not be kept going by who looks at it.
+  if (sc_core::sc_pending_activity()) next_trigger(config_.pace);
+}
+
+void Recorder::finish(const std::vector<EndlessWait>& waits) {
+  dataflow_.bring_up_to_date();
+  for (StageTrace& stage : stages_) stage.finish();
+  for (FifoTrace& fifo : fifos_) fifo.finish();
+  for (PortTrace& port : ports_) port.finish();
+  tell_until(TraceLane::kNever, lanes_, sinks_);
+  for (TraceSink* sink : sinks_) sink->end(now(), waits);
+}
+
+}  // namespace parallax

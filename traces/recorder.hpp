@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <string>
+#include <systemc>
+#include <unordered_map>
+#include <vector>
+
+#include "tlm/dataflow.hpp"
+#include "traces/fifo_trace.hpp"
+#include "traces/port_trace.hpp"
+#include "traces/stage_trace.hpp"
+#include "traces/trace_window.hpp"
+
+namespace parallax {
+
+/// What a recorder tells of.
+struct RecorderConfig {
+  TraceWindow window{};
+  bool tokens = false;         ///< every firing, token and burst, not rows alone
+  std::int32_t rows = 0;       ///< of the image
+  std::int32_t tiles = 1;      ///< that a frame is processed in
+  std::int64_t frames = 0;     ///< of the run
+  sc_core::sc_time pace;       ///< how often FIFOs are looked at, and sinks told
+};
+
+/// Listens to the parts that it is given and tells sinks, in the order of the dates, what they do. What nobody is
+/// given to is not listened to, and computed for nobody. Dates are known ahead of kernel time, part by part; they are
+/// kept until kernel time has come to them, so that memory stays flat however long the run.
+///
+/// Parts and sinks are added before the simulation starts, and must outlive it.
+class Recorder final : public sc_core::sc_module {
+ public:
+  Recorder(const sc_core::sc_module_name& name, const RecorderConfig& config, Dataflow& dataflow);
+
+  /// `rows`: of the tokens; none when they belong to no row.
+  void add(StreamBase& stream, const std::shared_ptr<const RowEnds>& rows);
+  void add(Stage& stage, const StagePorts& ports);
+  void add(BusMaster& master, const std::string& name, const std::shared_ptr<const RowEnds>& rows);
+  void add(TraceSink& sink) { sinks_.push_back(&sink); }
+
+  /// A frame has come to a step, now.
+  void frame_step(std::int64_t frame, FrameStep step);
+  /// A frame is at the host.
+  void frame(const FrameRecord& record);
+  /// The simulation is over: tells what is left. `waits`: of a machine that is stuck.
+  void finish(const std::vector<EndlessWait>& waits = {});
+
+ private:
+  struct Step {
+    std::int64_t frame;
+    FrameStep step;
+    Picoseconds time;
+  };
+
+  void start_of_simulation() override;
+  void go_on();
+  PartId id_of(const StreamBase* stream) const;
+
+  const RecorderConfig config_;
+  Dataflow& dataflow_;
+  TraceParts parts_;
+  TraceSinks sinks_;
+  std::vector<const StreamBase*> streams_;
+  std::unordered_map<const StreamBase*, PartId> stream_ids_;
+  std::deque<FifoTrace> fifos_;
+  std::deque<StageTrace> stages_;
+  std::deque<PortTrace> ports_;
+  EventLane<Step> steps_;
+  EventLane<FrameRecord> frames_;
+  std::vector<TraceLane*> lanes_;
+};
+
+}  // namespace parallax

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "traces/row_ends.hpp"
+
+#include <algorithm>
+
+namespace parallax {
+
+RowEnds equal_rows(std::uint64_t units_of_a_row, std::int32_t rows, std::int32_t tiles) {
+  RowEnds ends;
+  ends.rows_of_a_tile = rows;
+  for (std::int64_t row = 1; row <= std::int64_t{rows} * tiles; ++row) {
+    ends.ends.push_back(units_of_a_row * static_cast<std::uint64_t>(row));
+  }
+  return ends;
+}
+
+void RowCursor::advance(std::uint64_t units) {
+  at_ += units;
+  if (at_ < ends_->ends[row_]) return;
+  const std::uint64_t frame = ends_->frame();
+  frame_ += static_cast<std::int64_t>(at_ / frame);
+  at_ %= frame;
+  row_ = static_cast<std::size_t>(std::upper_bound(ends_->ends.begin(), ends_->ends.end(), at_) - ends_->ends.begin());
+}
+
+}  // namespace parallax

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "traces/trace_event.hpp"
+
+namespace parallax {
+
+/// Where the rows of a frame end in what passes a stream or a port: tokens or bytes of the frame until the end of each
+/// row, tile by tile.
+struct RowEnds {
+  std::vector<std::uint64_t> ends;
+  std::int32_t rows_of_a_tile = 1;
+
+  std::uint64_t frame() const { return ends.empty() ? 0 : ends.back(); }
+};
+
+/// Rows of equal length.
+RowEnds equal_rows(std::uint64_t units_of_a_row, std::int32_t rows, std::int32_t tiles);
+
+/// Follows what passes through rows and frames.
+class RowCursor {
+ public:
+  /// `ends` must not be empty.
+  explicit RowCursor(std::shared_ptr<const RowEnds> ends) : ends_(std::move(ends)) {}
+
+  /// Of the next unit.
+  TracePlace place() const {
+    return {frame_, static_cast<std::int32_t>(row_) / ends_->rows_of_a_tile,
+            static_cast<std::int32_t>(row_) % ends_->rows_of_a_tile};
+  }
+  /// Units until the row ends.
+  std::uint64_t left_in_row() const { return ends_->ends[row_] - at_; }
+  void advance(std::uint64_t units);
+
+ private:
+  std::shared_ptr<const RowEnds> ends_;
+  std::int64_t frame_ = 0;
+  std::size_t row_ = 0;
+  std::uint64_t at_ = 0;  // units of the frame
+};
+
+}  // namespace parallax

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "traces/stage_trace.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace parallax {
+namespace {
+
+std::int32_t rows_of_a_tile(const StagePorts& ports) {
+  if (ports.read) return ports.read->rows->rows_of_a_tile;
+  return ports.written ? ports.written->rows->rows_of_a_tile : 1;
+}
+
+}  // namespace
+
+StageTrace::StageTrace(Stage& stage, PartId id, const StagePorts& ports, const TraceWindow& window, bool firings,
+                       StreamId stream_id)
+    : id_(id),
+      clock_(stage.clock()),
+      schedule_(rows_of(stage.schedule(), ports)),
+      passes_(ports.passes),
+      rows_of_a_tile_(rows_of_a_tile(ports)),
+      window_(window),
+      wants_firings_(firings),
+      stream_id_(std::move(stream_id)),
+      rows_([](const Event& event) { return event.begins ? event.row.begin : event.row.end; },
+            [](const Event& event, TraceSink& sink) {
+              event.begins ? sink.row_begins(event.row) : sink.row(event.row);
+            }),
+      firings_([](const StageFiring& firing) { return firing.start; },
+               [](const StageFiring& firing, TraceSink& sink) { sink.firing(firing); }) {
+  current_.stage = id;
+  stage.listen(this);
+}
+
+std::uint64_t StageTrace::until_next_row() const {
+  const bool last = row_ + 1 == schedule_.rows.size();
+  return (last ? schedule_.firings : schedule_.rows[row_ + 1].firing) - firing_;
+}
+
+void StageTrace::repeated(const Stage&, const std::vector<FiringDates>& period, Cycles later, Cycles every,
+                          std::uint64_t times) {
+  while (times > 0) {
+    // Whole periods before the firing with which the next row begins.
+    const std::uint64_t periods = in_row_ ? std::min(times, until_next_row() / period.size()) : 0;
+    const Cycles until = later + every * static_cast<std::int64_t>(periods);
+    const bool one_by_one = wants_firings_ && window_.contains(current_.place, date(period.front().free + later),
+                                                               date(period.back().start + until));
+    const std::uint64_t whole = one_by_one ? 0 : periods;
+    if (whole > 0) {
+      for (const FiringDates& firing : period) {
+        add_waits(firing, static_cast<std::int64_t>(whole));
+        current_.time.of(firing.work) += Cycles(firing.interval) * static_cast<std::int64_t>(whole);
+      }
+      current_.time.firings += whole * period.size();
+      firing_ += whole * period.size();
+      later += every * static_cast<std::int64_t>(whole);
+      free_ = period.back().start + Cycles(period.back().interval) + later - every;
+      times -= whole;
+      if (until_next_row() == 0) in_row_ = false;
+      continue;
+    }
+    for (FiringDates firing : period) {
+      firing.free += later;
+      firing.ready += later;
+      firing.start += later;
+      note(firing);
+    }
+    later += every;
+    --times;
+  }
+}
+
+// `in_row_` is false before the first firing of a row.
+void StageTrace::note(const FiringDates& firing) {
+  add_waits(firing, 1);
+  if (!in_row_) {
+    if (pass_ > 0 || firing_ > 0) end_row(firing);
+    begin_row(firing.start);
+  }
+  if (wants_firings_) note_firing(firing);
+  current_.time.of(firing.work) += Cycles(firing.interval);
+  ++current_.time.firings;
+  ++firing_;
+  free_ = firing.start + Cycles(firing.interval);
+  in_row_ = until_next_row() > 0;
+}
+
+void StageTrace::note_firing(const FiringDates& firing) {
+  StageFiring event;
+  event.stage = id_;
+  event.place = current_.place;
+  event.free = date(firing.free);
+  event.ready = date(firing.ready);
+  event.start = date(firing.start);
+  event.end = date(firing.start + Cycles(firing.interval));
+  if (!window_.contains(event.place, event.start, event.end)) return;
+  event.work = firing.work;
+  event.input_wait = firing.input_wait;
+  event.room_wait = firing.room_wait;
+  if (firing.ready > firing.free) event.input = stream_id_(firing.input);
+  if (firing.start > firing.ready) event.room = stream_id_(firing.room);
+  firings_.push(event);
+}
+
+void StageTrace::add_waits(const FiringDates& firing, std::int64_t times) {
+  if (firing.ready > firing.free) add_wait(firing.input_wait, firing.input, (firing.ready - firing.free) * times);
+  if (firing.start > firing.ready) add_wait(firing.room_wait, firing.room, (firing.start - firing.ready) * times);
+}
+
+void StageTrace::add_wait(StageActivity activity, const StreamBase* stream, Cycles cycles) {
+  current_.time.of(activity) += cycles;
+  const auto same = std::find_if(waits_.begin(), waits_.end(), [&](const Wait& wait) {
+    return wait.activity == activity && wait.stream == stream;
+  });
+  if (same == waits_.end()) {
+    waits_.push_back({activity, stream, cycles});
+  } else {
+    same->cycles += cycles;
+  }
+}
+
+void StageTrace::begin_row(Cycles start) {
+  if (firing_ == schedule_.firings) {
+    firing_ = 0;
+    row_ = 0;
+    ++pass_;
+  } else if (firing_ > 0) {
+    ++row_;
+  }
+  const ScheduleRow& row = schedule_row();
+  waits_.clear();
+  current_ = {};
+  current_.stage = id_;
+  current_.place = {pass_ / passes_, static_cast<std::int32_t>(pass_ % passes_) + row.row / rows_of_a_tile_,
+                    row.row % rows_of_a_tile_};
+  current_.draining = row.draining;
+  current_.row_written = row.row_written < 0 ? -1 : row.row_written % rows_of_a_tile_;
+  current_.begin = date(start);
+  in_window_ = window_.contains(current_.place, current_.begin, current_.begin);
+  if (in_window_) rows_.push({current_, true});
+}
+
+// The row is over with the firing `next`, whose waits belong to it.
+void StageTrace::end_row(const FiringDates& next) {
+  current_.busy_until = date(next.free);
+  current_.inputs_until = date(next.ready);
+  current_.end = date(next.start);
+  if (next.ready > next.free) {
+    current_.input_wait = next.input_wait;
+    current_.input = stream_id_(next.input);
+  }
+  if (next.start > next.ready) {
+    current_.room_wait = next.room_wait;
+    current_.room = stream_id_(next.room);
+  }
+  const auto longest =
+      std::max_element(waits_.begin(), waits_.end(), [](const Wait& a, const Wait& b) { return a.cycles < b.cycles; });
+  if (longest != waits_.end()) {
+    current_.longest_wait = longest->activity;
+    current_.longest_at = stream_id_(longest->stream);
+  }
+  if (in_window_) rows_.push({current_, false});
+}
+
+void StageTrace::finish() {
+  if (pass_ == 0 && firing_ == 0) return;
+  FiringDates none;
+  none.free = none.ready = none.start = free_;
+  end_row(none);
+}
+
+}  // namespace parallax

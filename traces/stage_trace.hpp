@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "tlm/stage.hpp"
+#include "traces/stage_rows.hpp"
+#include "traces/trace_lane.hpp"
+#include "traces/trace_window.hpp"
+
+namespace parallax {
+
+/// Makes rows, and on request firings, of what a stage tells of its firings. Leaps are taken as they come: only where a
+/// row begins within one are firings gone through one by one, unless all are wanted.
+class StageTrace final : public StageListener {
+ public:
+  /// Number of a stream.
+  using StreamId = std::function<PartId(const StreamBase* stream)>;
+
+  StageTrace(Stage& stage, PartId id, const StagePorts& ports, const TraceWindow& window, bool firings,
+             StreamId stream_id);
+
+  TraceLane& rows() { return rows_; }
+  TraceLane& firings() { return firings_; }
+  /// The stage has gone as far as it goes: its last row ends here.
+  void finish();
+
+ private:
+  struct Event {
+    StageRow row;
+    bool begins = false;
+  };
+  struct Wait {  // in the row that is under way
+    StageActivity activity;
+    const StreamBase* stream;
+    Cycles cycles;
+  };
+
+  void fired(const Stage&, const FiringDates& firing) override { note(firing); }
+  void repeated(const Stage& stage, const std::vector<FiringDates>& period, Cycles later, Cycles every,
+                std::uint64_t times) override;
+
+  void note(const FiringDates& firing);
+  void note_firing(const FiringDates& firing);
+  void add_waits(const FiringDates& firing, std::int64_t times);
+  void add_wait(StageActivity activity, const StreamBase* stream, Cycles cycles);
+  void begin_row(Cycles start);
+  void end_row(const FiringDates& next);
+  std::uint64_t until_next_row() const;
+  const ScheduleRow& schedule_row() const { return schedule_.rows[row_]; }
+  Picoseconds date(Cycles cycle) const { return clock_.date_of(cycle); }
+
+  const PartId id_;
+  const ClockDomain& clock_;
+  const ScheduleRows schedule_;
+  const std::int64_t passes_;
+  const std::int32_t rows_of_a_tile_;
+  const TraceWindow& window_;
+  const bool wants_firings_;
+  const StreamId stream_id_;
+
+  std::uint64_t firing_ = 0;  // of the pass, the next one
+  std::size_t row_ = 0;       // of the pass, that it belongs to
+  std::int64_t pass_ = 0;
+  bool in_row_ = false;
+  bool in_window_ = false;  // the row, by where or when it begins
+  StageRow current_;
+  std::vector<Wait> waits_;
+  Cycles free_{0};  // after the last firing
+
+  EventLane<Event> rows_;
+  EventLane<StageFiring> firings_;
+};
+
+}  // namespace parallax
