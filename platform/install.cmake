@@ -12,7 +12,9 @@ install(DIRECTORY platform/presets/ DESTINATION ${CMAKE_INSTALL_DATADIR}/paralla
 
 set(package ${CMAKE_INSTALL_LIBDIR}/cmake/parallax)
 install(EXPORT parallax DESTINATION ${package} NAMESPACE parallax:: FILE parallax-targets.cmake)
-configure_package_config_file(platform/parallax-config.cmake.in parallax-config.cmake INSTALL_DESTINATION ${package})
+set(parallax_presets ${CMAKE_INSTALL_DATADIR}/parallax/presets)
+configure_package_config_file(platform/parallax-config.cmake.in parallax-config.cmake INSTALL_DESTINATION ${package}
+  PATH_VARS parallax_presets)
 write_basic_package_version_file(parallax-config-version.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/parallax-config.cmake ${PROJECT_BINARY_DIR}/parallax-config-version.cmake
   DESTINATION ${package})

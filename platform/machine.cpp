@@ -307,7 +307,8 @@ void Machine::deliver(std::int64_t frame, const std::vector<std::uint8_t>& bytes
     }
   }
   if (input_.deliver) input_.deliver(result);
-  if (++delivered_ == input_.frames) sc_core::sc_stop();
+  if (++delivered_ < input_.frames) return;
+  input_.finished ? input_.finished() : sc_core::sc_stop();
 }
 
 std::vector<Machine::Port> Machine::make_ports() {

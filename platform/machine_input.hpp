@@ -33,6 +33,8 @@ struct MachineInput {
   /// one, without images, until the host has all frames, so that every frame meets the traffic of its
   /// successors.
   std::function<StereoFrame(std::int64_t frame)> expose;
+  /// Called when the host has all frames; if there is none, the simulation is stopped then (sc_stop).
+  std::function<void()> finished;
   /// Called, if there is one, once a frame, in order, when the host has it.
   std::function<void(const FrameResult& result)> deliver;
 };

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "tlm/error.hpp"
+#include "tlm/time_resolution.hpp"
 
 namespace parallax {
 namespace {
@@ -15,6 +16,7 @@ constexpr std::int64_t kPicosecondsPerSecond = 1'000'000'000'000;
 std::uint64_t unsigned_count(Cycles c) { return static_cast<std::uint64_t>(c.count()); }
 
 Hertz checked(const std::string& name, Hertz frequency) {
+  require_picosecond_resolution();
   if (frequency < Hertz(1) || frequency > Hertz(kPicosecondsPerSecond)) {
     throw UserError(fmt::format("clock '{}': frequency {} Hz is outside 1 to {} Hz", name, frequency.count(),
                                 kPicosecondsPerSecond));

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tlm/dram_controller.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+
+#include "tlm/error.hpp"
 
 namespace parallax {
 namespace {
@@ -10,11 +14,31 @@ namespace {
 constexpr std::uint8_t kHit = 1;      // somebody wants its open row
 constexpr std::uint8_t kPrepare = 2;  // the oldest who wants another row has been seen
 
+template <class T>
+const T& valid(const T& config) {
+  config.validate();
+  return config;
+}
+
 }  // namespace
 
+void DramPolicy::validate() const {
+  const auto require = [](const char* name, std::int64_t value, std::int64_t least, std::int64_t most) {
+    if (value >= least && value <= most) return;
+    throw UserError(fmt::format("memory.{} = {}: must be from {} to {}", name, value, least, most));
+  };
+  constexpr std::int64_t kLongest = 1024;
+  require("read_queue", static_cast<std::int64_t>(read_queue), 1, kLongest);
+  require("write_queue", static_cast<std::int64_t>(write_queue), 1, kLongest);
+  require("write_high", static_cast<std::int64_t>(high_watermark), 1, static_cast<std::int64_t>(write_queue));
+  require("write_low", static_cast<std::int64_t>(low_watermark), 0,
+          static_cast<std::int64_t>(high_watermark) - 1);
+  require("efficiency", efficiency, 1, 100);
+}
+
 DramController::DramController(const DramTiming& timing, const DramPolicy& policy)
-    : timing_(timing),
-      policy_(policy),
+    : timing_(valid(timing)),
+      policy_(valid(policy)),
       banks_(static_cast<std::size_t>(timing.banks)),
       groups_(static_cast<std::size_t>(timing.bank_groups)),
       refresh_due_(timing.refi > 0 ? timing.refi : kNever),

@@ -19,6 +19,9 @@ struct DramPolicy {
   std::size_t low_watermark = 6;    ///< writes queued at which it ends when reads wait, below high_watermark
   std::int64_t efficiency = 100;    ///< percent of the time that column commands may take, 1 to 100: what a
                                     ///< real controller loses beyond the devices' timing
+
+  /// Throws UserError when a value is out of its range.
+  void validate() const;
 };
 
 enum class DramCommand : std::uint8_t { kActivate, kPrecharge, kPrechargeAll, kRead, kWrite, kRefresh };

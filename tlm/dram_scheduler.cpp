@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tlm/dram_scheduler.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+
+#include "tlm/error.hpp"
 
 namespace parallax {
 namespace {
@@ -13,10 +17,13 @@ constexpr std::uint64_t kPorts = 256;
 
 DramScheduler::DramScheduler(const DramMemory& memory)
     : memory_(memory),
-      period_(memory.timing.clock_period_ps),
+      period_((memory.timing.validate(), memory.timing.clock_period_ps)),
       burst_bytes_(static_cast<std::uint64_t>(memory.timing.burst_bytes())),
       address_(memory.timing, memory.mapping),
-      controller_(memory.timing, memory.policy) {}
+      controller_(memory.timing, memory.policy) {
+  if (memory.latency < 0)
+    throw UserError(fmt::format("memory.latency_cycles = {}: must be at least 0", memory.latency));
+}
 
 void DramScheduler::bind(MemoryQueues& queues) {
   queues_ = &queues;

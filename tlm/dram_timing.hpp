@@ -36,6 +36,10 @@ struct DramTiming {
   std::int64_t rows = 32768;      ///< a bank
   std::int64_t columns = 1024;    ///< a row, in words of the bus
 
+  /// Throws UserError when values are impossible, alone or together; it names them as configuration keys,
+  /// dram.*.
+  void validate() const;
+
   std::int64_t burst_clocks() const { return burst_length / 2; }
   std::int64_t burst_bytes() const { return burst_length * bus_bytes; }
   std::int64_t row_bytes() const { return columns * bus_bytes; }

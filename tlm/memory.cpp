@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
+#include <stdexcept>
 #include <utility>
 
 #include "tlm/error.hpp"
+#include "tlm/time_resolution.hpp"
 #include "tlm/traffic_only.hpp"
 
 namespace parallax {
@@ -27,6 +29,9 @@ sc_core::sc_time time(Picoseconds date) {
 Memory::Memory(const sc_core::sc_module_name& name, const MemoryTargetConfig& config,
                std::unique_ptr<MemoryScheduler> scheduler)
     : sc_module(name), config_(config), scheduler_(std::move(scheduler)), queues_(config.queue_depth) {
+  require_picosecond_resolution();
+  if (scheduler_ == nullptr) throw std::invalid_argument("a memory needs a scheduler");
+  if (config.queue_depth < 1) throw UserError("memory.queue_depth = 0: must be at least 1");
   if (config.holds_data) {
     // calloc: pages that nobody writes take no memory.
     bytes_.reset(static_cast<std::uint8_t*>(std::calloc(static_cast<std::size_t>(config.size.count()), 1)));
@@ -88,6 +93,10 @@ Cycles Memory::cycle_at_or_after(const sc_core::sc_time& time) const {
   const auto index = static_cast<std::size_t>(id);
   Port& port = ports_[index];
   if (phase == ::tlm::END_RESP) {
+    if (!port.answering || port.answered_payload != &payload) {
+      SC_REPORT_ERROR("/parallax/memory/phase", "an END_RESP without a BEGIN_RESP of that request before it");
+      return ::tlm::TLM_COMPLETED;
+    }
     port.answering = false;
     port.answered_until = now + date(delay);
     if (!port.held.empty()) wake_at(std::max(port.answered_until, port.held.front().ready));
@@ -99,6 +108,10 @@ Cycles Memory::cycle_at_or_after(const sc_core::sc_time& time) const {
   }
   if (queues_.has_refused(index)) {
     SC_REPORT_ERROR("/parallax/memory/phase", "a second BEGIN_REQ before the END_REQ of the first");
+    return ::tlm::TLM_COMPLETED;
+  }
+  if (!payload.has_mm()) {
+    SC_REPORT_ERROR("/parallax/memory/payload", "nb_transport needs a payload with a memory manager");
     return ::tlm::TLM_COMPLETED;
   }
   payload.acquire();
@@ -146,8 +159,13 @@ bool Memory::access(::tlm::tlm_generic_payload& payload) const {
     payload.set_response_status(::tlm::TLM_BURST_ERROR_RESPONSE);
     return false;
   }
+  const bool traffic_only = !config_.holds_data || payload.get_extension<TrafficOnly>() != nullptr;
+  if (!traffic_only && payload.get_data_ptr() == nullptr && payload.get_data_length() > 0) {
+    payload.set_response_status(::tlm::TLM_GENERIC_ERROR_RESPONSE);
+    return false;
+  }
   payload.set_response_status(::tlm::TLM_OK_RESPONSE);
-  if (!config_.holds_data || payload.get_extension<TrafficOnly>() != nullptr) return true;
+  if (traffic_only) return true;
   std::uint8_t* place = bytes_.get() + payload.get_address();
   if (payload.is_read()) std::memcpy(payload.get_data_ptr(), place, payload.get_data_length());
   if (payload.is_write()) std::memcpy(place, payload.get_data_ptr(), payload.get_data_length());
@@ -155,11 +173,12 @@ bool Memory::access(::tlm::tlm_generic_payload& payload) const {
 }
 
 void Memory::served(std::size_t port, const MemoryRequest& request) {
-  access(*request.payload);
+  const bool ok = access(*request.payload);
   MemoryPortStatistics& statistics = ports_[port].statistics;
   ++statistics.requests;
-  (request.payload->is_write() ? statistics.written_bytes : statistics.read_bytes) +=
-      request.payload->get_data_length();
+  if (!ok) return;
+  if (request.payload->is_write()) statistics.written_bytes += request.payload->get_data_length();
+  if (request.payload->is_read()) statistics.read_bytes += request.payload->get_data_length();
 }
 
 void Memory::run() {
@@ -212,11 +231,14 @@ void Memory::begin_response(const Answer& answer, Picoseconds now) {
     return;
   }
   ::tlm::tlm_phase phase = ::tlm::BEGIN_RESP;
+  port.answering = true;  // until the END_RESP, which may come within the call
+  port.answered_payload = answer.request.payload;
   const ::tlm::tlm_sync_enum status =
       socket[static_cast<int>(answer.port)]->nb_transport_bw(*answer.request.payload, phase, delay);
-  port.answering =
-      status == ::tlm::TLM_ACCEPTED || (status == ::tlm::TLM_UPDATED && phase != ::tlm::END_RESP);
-  if (!port.answering) port.answered_until = now + date(delay);
+  if (status == ::tlm::TLM_COMPLETED || (status == ::tlm::TLM_UPDATED && phase == ::tlm::END_RESP)) {
+    port.answering = false;
+    port.answered_until = now + date(delay);
+  }
   answer.request.payload->release();
 }
 

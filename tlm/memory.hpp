@@ -25,8 +25,8 @@ struct MemoryTargetConfig {
 
 /// What went through one port.
 struct MemoryPortStatistics {
-  std::uint64_t read_bytes = 0;
-  std::uint64_t written_bytes = 0;
+  std::uint64_t read_bytes = 0;     ///< of requests without an error
+  std::uint64_t written_bytes = 0;  ///< likewise
   std::uint64_t requests = 0;
   sc_core::sc_time latency_sum;  ///< from BEGIN_REQ to BEGIN_RESP
   sc_core::sc_time latency_largest;
@@ -79,7 +79,8 @@ class Memory : public sc_core::sc_module, private MemoryService {
     Picoseconds latency;
   };
   struct Port {
-    bool answering = false;      // BEGIN_RESP sent, END_RESP not seen
+    bool answering = false;                                        // BEGIN_RESP sent, END_RESP not seen
+    const ::tlm::tlm_generic_payload* answered_payload = nullptr;  // of the last BEGIN_RESP
     Picoseconds answered_until;  // END_RESP's own time; the next BEGIN_RESP is not earlier
     Ring<Answer> held;           // wait for the END_RESP
     Ring<Told> told;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <map>
 #include <memory>
 #include <string>
@@ -98,8 +99,17 @@ int replay_trace(const MemoryOptions& options, CommandContext& context) {
   if (options.no_refresh) timing.refi = 0;
   DramPolicy policy;
   policy.efficiency = options.efficiency;
-  const ReplayResult result = replay(read_address_trace(options.trace), timing, policy, mapping->second,
-                                     static_cast<std::size_t>(options.window));
+  const std::vector<TraceRequest> trace = read_address_trace(options.trace);
+  const auto beyond = std::count_if(trace.begin(), trace.end(), [&](const TraceRequest& request) {
+    return request.address + request.bytes > static_cast<std::uint64_t>(timing.bytes());
+  });
+  if (beyond > 0 && context.verbosity != Verbosity::kQuiet) {
+    context.err << fmt::format(
+        "parallax: note: {} of {} requests reach beyond the devices' {} bytes and begin anew there\n", beyond,
+        trace.size(), timing.bytes());
+  }
+  const ReplayResult result =
+      replay(trace, timing, policy, mapping->second, static_cast<std::size_t>(options.window));
   const MetricGroup metrics = measure(result, timing);
   if (options.json) {
     context.out << to_json(metrics).dump(2) << '\n';

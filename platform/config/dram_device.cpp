@@ -53,26 +53,6 @@ void describe(Schema& schema, DramTiming& timing) {
                  "Columns of a row, in words of the bus; a multiple of dram.burst_length.", origin);
 }
 
-void validate(const DramTiming& timing) {
-  const auto require = [](bool holds, const std::string& line) {
-    if (!holds) throw UserError(line);
-  };
-  require(timing.burst_length % 2 == 0,
-          fmt::format("dram.burst_length = {}: must be even, data moves twice a clock", timing.burst_length));
-  require(timing.columns % timing.burst_length == 0,
-          fmt::format("dram.columns = {}: must be a multiple of dram.burst_length = {}", timing.columns,
-                      timing.burst_length));
-  require(
-      timing.banks % timing.bank_groups == 0,
-      fmt::format("dram.bank_groups = {}: must divide dram.banks = {}", timing.bank_groups, timing.banks));
-  require(timing.ccd >= timing.burst_clocks(),
-          fmt::format("dram.ccd = {}: must be at least {}, half of dram.burst_length", timing.ccd,
-                      timing.burst_clocks()));
-  require(timing.refi == 0 || timing.refi > timing.rfc + timing.rp_all,
-          fmt::format("dram.refi = {}: must be 0 or more than dram.rfc + dram.rp_all = {}", timing.refi,
-                      timing.rfc + timing.rp_all));
-}
-
 RawConfig read_dram_device(const std::string& name,
                            const std::vector<std::filesystem::path>& preset_folders) {
   std::vector<std::filesystem::path> folders;
@@ -82,7 +62,7 @@ RawConfig read_dram_device(const std::string& name,
   Schema schema;
   describe(schema, timing);
   schema.apply(values);
-  validate(timing);
+  timing.validate();
   return values;
 }
 

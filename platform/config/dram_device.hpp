@@ -15,9 +15,6 @@ class Schema;
 /// A DRAM device file's keys: the rank of devices as DramTiming has it.
 void describe(Schema& schema, DramTiming& timing);
 
-/// Throws UserError when values are fine alone but not together.
-void validate(const DramTiming& timing);
-
 /// The values of a device's file and of those that it inherits: keys dram.*; see load_dram_device().
 RawConfig read_dram_device(const std::string& name, const std::vector<std::filesystem::path>& preset_folders);
 

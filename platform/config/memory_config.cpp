@@ -11,7 +11,7 @@ namespace parallax {
 
 void MemoryConfig::validate() const {
   if (model == MemoryModel::kBus) return;
-  parallax::validate(dram);
+  dram.validate();
   if (size_bytes > dram.bytes()) {
     throw UserError(
         fmt::format("memory.size_bytes = {}: must be at most the devices' size, {} B (dram.rows * "

@@ -19,7 +19,7 @@ namespace {
 
 constexpr const char* kHeader = "time_ns,rw,addr,bytes";
 constexpr std::uint64_t kMostBytes = 1 << 20;
-constexpr double kLatest = 1e15;  // ns
+constexpr double kLatest = 1e12;  // ns: a refresh is a step, and this many take seconds
 
 std::string read_file(const std::string& path) {
   const std::unique_ptr<gzFile_s, int (*)(gzFile)> file(gzopen(path.c_str(), "rb"), gzclose);
@@ -34,7 +34,13 @@ std::string read_file(const std::string& path) {
       throw UserError(
           fmt::format("{}: cannot be read: {}", path, code == Z_ERRNO ? std::strerror(errno) : what));
     }
-    if (read == 0) return text;
+    if (read == 0) {
+      int code = Z_OK;
+      gzerror(file.get(), &code);
+      if (code == Z_BUF_ERROR)
+        throw UserError(fmt::format("{}: ends in the middle of the compressed data", path));
+      return text;
+    }
     text.append(buffer.data(), static_cast<std::size_t>(read));
   }
 }
@@ -56,10 +62,12 @@ class Line {
     if (fields[0].empty() || *end != '\0' || !(request.time_ns >= 0 && request.time_ns <= kLatest)) {
       return fmt::format("time_ns is '{}', expected a number from 0 to {:.0f}", fields[0], kLatest);
     }
-    if (fields[1] != "R" && fields[1] != "W") return fmt::format("rw is '{}', expected R or W", fields[1]);
-    request.write = fields[1] == "W";
+    if (fields[1] != "R" && fields[1] != "W" && fields[1] != "r" && fields[1] != "w") {
+      return fmt::format("rw is '{}', expected R or W", fields[1]);
+    }
+    request.write = fields[1] == "W" || fields[1] == "w";
     if (!number(fields[2], request.address)) {
-      return fmt::format("addr is '{}', expected an address such as 0x1000", fields[2]);
+      return fmt::format("addr is '{}', expected an address such as 0x1000, below 2^62", fields[2]);
     }
     if (!number(fields[3], request.bytes) || request.bytes == 0 || request.bytes > kMostBytes) {
       return fmt::format("bytes is '{}', expected a number from 1 to {}", fields[3], kMostBytes);

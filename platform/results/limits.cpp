@@ -33,6 +33,31 @@ const PartLoad& first_at_largest(const std::vector<PartLoad>& loads) {
                        [&](const PartLoad& l) { return l.share >= kSamePace * largest; });
 }
 
+std::int64_t frames_taken(const Activity& first, const Activity& last) {
+  return last.cameras.taken - first.cameras.taken + last.cameras.faulty - first.cameras.faulty;
+}
+
+// Reading out, and exposing where that does not overlap. Cameras with a rate of their own read out frames
+// that nobody takes, too; that limits nothing.
+PartLoad camera_load(const Machine& machine, const Activity& first, const Activity& last) {
+  const CameraConfig& config = machine.config().camera;
+  const ClockDomain& clock = machine.camera_clock();
+  PartLoad load{"camera", "clocks.camera_hz",
+                ratio(last.camera - first.camera, cycles_between(clock, first.time, last.time)),
+                clock.seconds(machine.sensor().frame_time())};
+  if (config.exposure_ns > 0) {
+    const double exposure = config.exposure_ns * 1e-9;
+    load.key = "camera.exposure_ns, clocks.camera_hz";
+    load.busy = config.overlap ? std::max(exposure, load.busy) : exposure + load.busy;
+  }
+  if (config.exposure_ns > 0 || config.frame_rate > 0) {
+    load.share =
+        static_cast<double>(frames_taken(first, last)) * load.busy / (last.time - first.time).to_seconds();
+  }
+  load.share = std::min(1.0, load.share);  // frames are counted whole
+  return load;
+}
+
 }  // namespace
 
 std::int64_t frames_to_simulate(const MachineConfig& config, std::int64_t input_frames,
@@ -70,27 +95,13 @@ std::vector<PartLoad> part_loads(const Machine& machine, const SteadyWindow& win
          memory->seconds(work) / frames});
   }
 
-  const ClockDomain& camera_clock = machine.camera_clock();
-  PartLoad camera{"camera", "clocks.camera_hz",
-                  ratio(last.camera - first.camera, cycles_between(camera_clock, first.time, last.time)),
-                  camera_clock.seconds(machine.sensor().frame_time())};
-  if (config.camera.exposure_ns > 0) {
-    const double exposure = config.camera.exposure_ns * 1e-9;
-    camera.key = "camera.exposure_ns, clocks.camera_hz";
-    camera.busy = config.camera.overlap ? std::max(exposure, camera.busy) : exposure + camera.busy;
-    const std::int64_t read_out = last.cameras.taken - first.cameras.taken + last.cameras.faulty -
-                                  first.cameras.faulty + last.cameras.dropped - first.cameras.dropped;
-    camera.share =
-        std::min(1.0, static_cast<double>(read_out) * camera.busy / (last.time - first.time).to_seconds());
-  }
-  loads.push_back(camera);
   const double elapsed = (last.time - first.time).to_seconds();
+  loads.push_back(camera_load(machine, first, last));
   if (config.camera.frame_rate > 0) {
     // The cameras set the pace as far as their frames are taken.
     const std::int64_t triggers = last.cameras.triggers - first.cameras.triggers;
-    const std::int64_t taken =
-        last.cameras.taken - first.cameras.taken + last.cameras.faulty - first.cameras.faulty;
-    loads.push_back({"camera_frame_rate", "camera.frame_rate", ratio(Cycles(taken), Cycles(triggers)),
+    loads.push_back({"camera_frame_rate", "camera.frame_rate",
+                     ratio(Cycles(frames_taken(first, last)), Cycles(triggers)),
                      1.0 / config.camera.frame_rate});
   }
 

@@ -313,6 +313,9 @@ MetricGroup measure(const Machine& machine, const RunTotals& totals, int image_w
        "Bursts of the left sensor that found its FIFO full: the memory did not keep up with the read-out.",
        "the whole run"});
   const CameraCounts& cameras = machine.activities().back().cameras;
+  camera.add({"triggers", cameras.triggers, "triggers", "That the cameras were given.", "the whole run"});
+  camera.add({"taken_frames", cameras.taken, "frames",
+              "Frames that found a frame buffer, without the faulty ones.", "the whole run"});
   camera.add({"dropped_frames", cameras.dropped, "frames", "Frames that found no frame buffer free.",
               "the whole run"});
   camera.add({"faulty_frames", cameras.faulty, "frames",

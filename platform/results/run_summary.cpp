@@ -32,11 +32,12 @@ std::string memory_lines(const MetricGroup& m) {
   for (const std::string& port : ports) {
     const std::string path = "memory/" + port + "/";
     const std::string name = port == "map" ? "rectification map" : port;
+    const std::string share =
+        m.find(path + "share") == nullptr ? "-" : fmt::format("{:.2f} %", number(m, path + "share"));
     text += fmt::format(
-        "  {:<18}{:>9.1f} MB/s {:>6.2f} %   {:>9.0f} B a frame, latency {:>4.0f} ns mean, {:>5.0f} p95, "
-        "{:>5.0f} "
+        "  {:<18}{:>9.1f} MB/s {:>8}   {:>9.0f} B a frame, latency {:>4.0f} ns mean, {:>5.0f} p95, {:>5.0f} "
         "largest\n",
-        name, number(m, path + "bandwidth"), number(m, path + "share"), number(m, path + "bytes_per_frame"),
+        name, number(m, path + "bandwidth"), share, number(m, path + "bytes_per_frame"),
         number(m, path + "latency_mean"), number(m, path + "latency_p95"),
         number(m, path + "latency_largest"));
   }
@@ -132,9 +133,13 @@ std::string summary(const MetricGroup& m) {
         count("camera/dropped_frames"), count("camera/faulty_frames"), count("camera/missed_triggers"));
   }
   text += limit_line(m);
-  text += fmt::format("memory              {:.1f} of {:.0f} MB/s usable, bus taken {:.1f} % of the time\n",
-                      number(m, "memory/bandwidth"), number(m, "memory/usable_bandwidth"),
-                      number(m, "memory/share"));
+  if (m.find("memory/share") == nullptr) {  // another memory than the machine's own
+    text += fmt::format("memory              {:.1f} MB/s\n", number(m, "memory/bandwidth"));
+  } else {
+    text += fmt::format("memory              {:.1f} of {:.0f} MB/s usable, bus taken {:.1f} % of the time\n",
+                        number(m, "memory/bandwidth"), number(m, "memory/usable_bandwidth"),
+                        number(m, "memory/share"));
+  }
   if (m.find("memory/row_hits") != nullptr) {
     text += fmt::format("                    at work {:.1f} % of the time, {:.1f} % row hits\n",
                         number(m, "memory/at_work"), number(m, "memory/row_hits"));

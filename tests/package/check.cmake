@@ -15,5 +15,5 @@ run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${area}/prefix)
 run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR} -B ${area}/build -G ${GENERATOR}
   -DCMAKE_PREFIX_PATH=${area}/prefix -DCMAKE_CXX_FLAGS=${FLAGS} -DCMAKE_FIND_USE_PACKAGE_REGISTRY=OFF)
 run(${CMAKE_COMMAND} --build ${area}/build)
-run(${area}/build/consumer)
-run(${area}/build/whole)
+run(${area}/build/own_initiator)
+run(${area}/build/own_memory)

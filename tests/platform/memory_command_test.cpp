@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
+#include <zlib.h>
 
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -77,6 +79,15 @@ TEST_F(MemoryCommand, EveryDeviceMovesDataAtLessThanItsPeak) {
   }
 }
 
+TEST_F(MemoryCommand, SaysWhatReachesBeyondTheDevices) {
+  const std::string trace = write("time_ns,rw,addr,bytes\n0,R,0x3fffffc0,64\n0,R,0x40000000,64\n");
+  const Outcome outcome = run({trace, "--config", "ddr3-1066-x32"});
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_EQ(
+      outcome.err,
+      "parallax: note: 1 of 2 requests reach beyond the devices' 1073741824 bytes and begin anew there\n");
+}
+
 TEST_F(MemoryCommand, TracesThatAreNone) {
   EXPECT_EQ(complaint("time,rw\n"), ":1: expected the line 'time_ns,rw,addr,bytes'");
   EXPECT_EQ(complaint(""), ": holds no request");
@@ -86,15 +97,27 @@ TEST_F(MemoryCommand, TracesThatAreNone) {
   EXPECT_EQ(line("0,R,0"), ":3: expected four fields, time_ns,rw,addr,bytes");
   EXPECT_EQ(line("0,R,0,64,1"), ":3: expected four fields, time_ns,rw,addr,bytes");
   EXPECT_EQ(line("0,R,0,64,"), ":3: expected four fields, time_ns,rw,addr,bytes");
-  EXPECT_EQ(line("soon,R,0,64"), ":3: time_ns is 'soon', expected a number from 0 to 1000000000000000");
-  EXPECT_EQ(line("-1,R,0,64"), ":3: time_ns is '-1', expected a number from 0 to 1000000000000000");
+  EXPECT_EQ(line("soon,R,0,64"), ":3: time_ns is 'soon', expected a number from 0 to 1000000000000");
+  EXPECT_EQ(line("-1,R,0,64"), ":3: time_ns is '-1', expected a number from 0 to 1000000000000");
   EXPECT_EQ(line("0,X,0,64"), ":3: rw is 'X', expected R or W");
-  EXPECT_EQ(line("0,R,0xg,64"), ":3: addr is '0xg', expected an address such as 0x1000");
-  EXPECT_EQ(line("0,R,-5,64"), ":3: addr is '-5', expected an address such as 0x1000");
+  EXPECT_EQ(line("0,R,0xg,64"), ":3: addr is '0xg', expected an address such as 0x1000, below 2^62");
+  EXPECT_EQ(line("0,R,-5,64"), ":3: addr is '-5', expected an address such as 0x1000, below 2^62");
   EXPECT_EQ(line("0,R,0,0"), ":3: bytes is '0', expected a number from 1 to 1048576");
   EXPECT_EQ(line("0,R,0,1048577"), ":3: bytes is '1048577', expected a number from 1 to 1048576");
   EXPECT_EQ(complaint("time_ns,rw,addr,bytes\n5,R,0,64\n4,R,0,64\n"),
             ":3: time_ns is 4, before 5 of an earlier line");
+  // A compressed file whose end is missing.
+  const std::string whole = folder_ / "whole.csv.gz";
+  gzFile file = gzopen(whole.c_str(), "wb");
+  for (const char* row : {"time_ns,rw,addr,bytes\n", "0,R,0,64\n", "0,w,64,64\n"}) {
+    gzputs(file, row);
+    gzflush(file, Z_SYNC_FLUSH);
+  }
+  gzclose(file);
+  EXPECT_EQ(read_address_trace(whole).size(), 2u);
+  std::filesystem::resize_file(whole, std::filesystem::file_size(whole) - 10);
+  EXPECT_EQ(error_of([&] { read_address_trace(whole); }),
+            whole + ": ends in the middle of the compressed data");
   EXPECT_EQ(error_of([&] { read_address_trace(folder_ / "none.csv"); }),
             (folder_ / "none.csv") + ": cannot be read: No such file or directory");
   EXPECT_EQ(error_of([&] { read_address_trace(folder_.path()); }),
@@ -129,7 +152,7 @@ TEST_F(MemoryCommand, ADeviceOfOnesOwn) {
   const auto complaint = [&timing](auto change) {
     timing = {};
     change(timing);
-    return error_of([&] { validate(timing); });
+    return error_of([&] { timing.validate(); });
   };
   EXPECT_EQ(complaint([](DramTiming& t) { t.burst_length = 7; }),
             "dram.burst_length = 7: must be even, data moves twice a clock");

@@ -5,67 +5,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <memory>
 #include <random>
 
 #include "tests/timing/in_child.hpp"
-#include "tests/tlm/bus_memory.hpp"
-#include "tests/tlm/protocol_initiator.hpp"
-#include "tests/tlm/thread.hpp"
+#include "tests/tlm/memory_bench.hpp"
 #include "tlm/traffic_only.hpp"
 
 namespace parallax::test {
 namespace {
-
-using Nanoseconds = std::vector<double>;
-
-// A cycle is a nanosecond; 8 B a cycle; 10 cycles of latency.
-BusMemory timing() {
-  BusMemory t;
-  t.size = Bytes(1 << 16);
-  t.bytes_per_cycle = Bytes(8);
-  t.latency = Cycles(10);
-  return t;
-}
-
-struct Bench {
-  explicit Bench(const BusMemory& t = timing(), int ports = 1, std::int64_t hz = 1'000'000'000)
-      : clock("memory", Hertz(hz)), memory("memory", t, clock) {
-    for (int i = 0; i < ports; ++i) {
-      initiators.push_back(std::make_unique<ProtocolInitiator>(sc_core::sc_gen_unique_name("initiator")));
-      initiators.back()->socket.bind(memory.socket);
-    }
-  }
-  ProtocolInitiator& operator[](std::size_t i) { return *initiators[i]; }
-  // The body runs as a thread of its own.
-  void thread(std::function<void()> body) {
-    threads.push_back(std::make_unique<Thread>(sc_core::sc_gen_unique_name("thread"), std::move(body)));
-  }
-  Nanoseconds responses(std::size_t port = 0) const {
-    Nanoseconds all;
-    for (const auto& t : initiators[port]->times) all.push_back(t.begin_response.to_seconds() * 1e9);
-    return all;
-  }
-  Nanoseconds end_requests(std::size_t port = 0) const {
-    Nanoseconds all;
-    for (const auto& t : initiators[port]->times) all.push_back(t.end_request.to_seconds() * 1e9);
-    return all;
-  }
-  ClockDomain clock;
-  BusMemoryTarget memory;
-  std::vector<std::unique_ptr<ProtocolInitiator>> initiators;
-  std::vector<std::unique_ptr<Thread>> threads;
-};
-
-void expect_near(const Nanoseconds& have, const Nanoseconds& want) {
-  ASSERT_EQ(have.size(), want.size());
-  for (std::size_t i = 0; i < want.size(); ++i) EXPECT_NEAR(have[i], want[i], 1e-3) << "request " << i;
-}
-
-template <class Number>
-sc_core::sc_time ns(Number t) {
-  return sc_core::sc_time(static_cast<double>(t), sc_core::SC_NS);
-}
 
 TEST(Memory, ABurstTakesItsBytesAtTheBusRateRoundedUp) {
   Bench b;
@@ -400,50 +347,6 @@ TEST(Memory, LeavesOutBytesThatMeanNothing) {
   EXPECT_EQ(b[0].times[2].data[0], 0x40);
   EXPECT_EQ(b[0].times[1].status, ::tlm::TLM_OK_RESPONSE);
   EXPECT_EQ(b[0].times[3].status, ::tlm::TLM_ADDRESS_ERROR_RESPONSE);
-}
-
-TEST(Memory, RefusesWhatItCannotDo) {
-  Bench b;
-  std::uint8_t enable = 0xFF;
-  b.thread([&] {
-    b[0].send(::tlm::TLM_READ_COMMAND, (1 << 16) - 63, 64);
-    b[0].send(::tlm::TLM_READ_COMMAND, ~0ull - 10, 64);
-    ::tlm::tlm_generic_payload& bytes = b[0].take(::tlm::TLM_READ_COMMAND, 0, 8);
-    bytes.set_byte_enable_ptr(&enable);
-    bytes.set_byte_enable_length(1);
-    b[0].send(bytes);
-    ::tlm::tlm_generic_payload& streaming = b[0].take(::tlm::TLM_READ_COMMAND, 0, 8);
-    streaming.set_streaming_width(4);
-    b[0].send(streaming);
-    b[0].send(::tlm::TLM_READ_COMMAND, (1 << 16) - 64, 64);
-  });
-  sc_core::sc_start();
-  EXPECT_EQ(b[0].times[0].status, ::tlm::TLM_ADDRESS_ERROR_RESPONSE);
-  EXPECT_EQ(b[0].times[1].status, ::tlm::TLM_ADDRESS_ERROR_RESPONSE);
-  EXPECT_EQ(b[0].times[2].status, ::tlm::TLM_BYTE_ENABLE_ERROR_RESPONSE);
-  EXPECT_EQ(b[0].times[3].status, ::tlm::TLM_BURST_ERROR_RESPONSE);
-  EXPECT_EQ(b[0].times[4].status, ::tlm::TLM_OK_RESPONSE);
-}
-
-TEST(Memory, ReportsASecondRequestBeforeTheEndOfTheFirst) {
-  BusMemory t = timing();
-  t.queue_depth = 1;
-  Bench b(t);
-  PayloadPool pool(64);
-  b.thread([&] {
-    for (int i = 0; i < 3; ++i) {
-      ::tlm::tlm_generic_payload& payload = pool.take(::tlm::TLM_READ_COMMAND, 0, 8);
-      ::tlm::tlm_phase phase = ::tlm::BEGIN_REQ;
-      sc_core::sc_time delay;
-      b[0].socket->nb_transport_fw(payload, phase, delay);
-    }
-  });
-  try {
-    sc_core::sc_start();
-    FAIL();
-  } catch (const sc_core::sc_report& report) {
-    EXPECT_STREQ(report.get_msg_type(), "/parallax/memory/phase");
-  }
 }
 
 // Many ports, random lengths, pauses and ways to answer; the initiators check the protocol.
