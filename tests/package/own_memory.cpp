@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // A memory of one's own under the machine.
-#include <tlm_utils/multi_passthrough_target_socket.h>
+#include <tlm_utils/simple_target_socket.h>
 
 #include <cstdio>
+#include <memory>
 #include <string>
 #include <systemc>
+#include <vector>
 
 #include "modules/map_codec.hpp"
 #include "platform/config/configuration.hpp"
@@ -13,17 +15,22 @@
 
 class SlowMemory final : public sc_core::sc_module {
  public:
-  tlm_utils::multi_passthrough_target_socket<SlowMemory> socket{"socket"};
+  explicit SlowMemory(const sc_core::sc_module_name& name) : sc_module(name) {}
 
-  explicit SlowMemory(const sc_core::sc_module_name& name) : sc_module(name) {
-    socket.register_b_transport(this, &SlowMemory::b_transport);  // four phases would do as well
+  /// A blocking target does: the socket turns the machine's four phases into calls of it.
+  void bind(tlm::tlm_initiator_socket<>& port, const std::string& name) {
+    sockets_.push_back(std::make_unique<tlm_utils::simple_target_socket<SlowMemory>>(("for_" + name).c_str()));
+    sockets_.back()->register_b_transport(this, &SlowMemory::b_transport);
+    port.bind(*sockets_.back());
   }
 
  private:
-  void b_transport(int, tlm::tlm_generic_payload& payload, sc_core::sc_time& delay) {
+  void b_transport(tlm::tlm_generic_payload& payload, sc_core::sc_time& delay) {
     delay += sc_core::sc_time(2, sc_core::SC_US);  // holds no data: that is enough for timing alone
     payload.set_response_status(tlm::TLM_OK_RESPONSE);
   }
+
+  std::vector<std::unique_ptr<tlm_utils::simple_target_socket<SlowMemory>>> sockets_;  // one for each port
 };
 
 int sc_main(int, char**) {
@@ -38,8 +45,8 @@ int sc_main(int, char**) {
   input.map = &map;
   input.frames = 9;
   input.timing_only = true;
-  input.bind_memory = [&](tlm::tlm_initiator_socket<>& port, const std::string& /*name*/) {
-    port.bind(memory.socket);
+  input.bind_memory = [&](tlm::tlm_initiator_socket<>& port, const std::string& name) {
+    memory.bind(port, name);
   };
   const parallax::Machine machine("machine", configuration.machine, input);
   sc_core::sc_start();  // ends when the host has all frames, unless input.finished says what to do then
