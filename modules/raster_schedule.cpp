@@ -96,7 +96,9 @@ Schedule make_schedule(const StageContext& context, const RasterSchedule& raster
   const std::uint32_t overhead = raster.timing.row_overhead;
   go_through(0, raster.look_ahead, {true, false}, raster.first_pass, overhead);
   go_through(raster.look_ahead, frame, {true, true}, raster.first_pass, overhead);
-  go_through(frame - raster.look_ahead, frame, {false, true}, raster.second_pass, 0);
+  // What is held back for a frame comes out in a second pass, row by row like the first one.
+  const std::uint32_t second = raster.look_ahead == frame ? overhead : 0;
+  go_through(frame - raster.look_ahead, frame, {false, true}, raster.second_pass, second);
   if (raster.timing.frame_overhead > 0) schedule.run({1, raster.timing.frame_overhead, 0, 0});
   return schedule;
 }

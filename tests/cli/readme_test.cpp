@@ -81,7 +81,7 @@ TEST(Readme, ItsCodeIsWhatTheTestsCompile) {
   std::size_t count = 0;
   for (const char* file : {"/README.md", "/tlm/README.md", "/modules/README.md"}) {
     for (const FencedBlock& block : fenced_blocks(read_text(kSource + file))) {
-      if (block.language != "cpp") continue;
+      if (block.language != "cpp" && block.language != "cmake") continue;
       std::string code;
       for (const std::string& line : block.lines) code += line + "\n";
       EXPECT_NE(read_text(kSource + "/" + block.note).find(code), std::string::npos)
