@@ -70,10 +70,13 @@ Machine::Machine(const sc_core::sc_module_name& name, const MachineConfig& confi
                       values_.push_back(values);
                       times_.push_back({});
                       times_.back().exposed = sc_core::sc_time_stamp();
+                      tell(static_cast<std::int64_t>(times_.size()) - 1, FrameStep::kExposed);
                     },
                     [this](std::int64_t frame) {
                       sc_core::sc_time& date = times_[static_cast<std::size_t>(frame)].first_byte;
-                      if (date == sc_core::SC_ZERO_TIME) date = sc_core::sc_time_stamp();
+                      if (date != sc_core::SC_ZERO_TIME) return;
+                      date = sc_core::sc_time_stamp();
+                      tell(frame, FrameStep::kFirstByte);
                     },
                     [this](std::int64_t frame) { frame_in_memory(frame); },
                     [this](CameraFault fault) { control_.frame_faulty(fault); }}),
@@ -118,8 +121,13 @@ void Machine::start_of_simulation() {
   core_.map_master().socket->transport_dbg(payload);
 }
 
+void Machine::tell(std::int64_t frame, FrameStep step) {
+  if (input_.step) input_.step(frame, step);
+}
+
 void Machine::frame_in_memory(std::int64_t frame) {
   times_[static_cast<std::size_t>(frame)].in_memory = sc_core::sc_time_stamp();
+  tell(frame, FrameStep::kInMemory);
   ++in_memory_;
   start_when_possible();
 }
@@ -172,6 +180,8 @@ void Machine::core_started(const FrameCommand& command) {
   starting_ = false;
   ++in_core_;
   const std::int64_t frame = started_++;
+  times_[static_cast<std::size_t>(frame)].core_started = sc_core::sc_time_stamp();
+  tell(frame, FrameStep::kCoreStarted);
   CoreJob job;
   job.left = command.left;
   job.right = command.right;
@@ -228,6 +238,7 @@ std::uint64_t Machine::output_buffer(std::int64_t frame) const {
 void Machine::results_in_memory(std::int64_t frame) {
   FrameTimes& times = times_[static_cast<std::size_t>(frame)];
   times.results_in_memory = sc_core::sc_time_stamp();
+  tell(frame, FrameStep::kResultsInMemory);
   core_taken_ = core_taken();
   core_taken_since_ = sc_core::sc_time_stamp();
   --in_core_;
@@ -280,6 +291,7 @@ void Machine::take_row(const Disparity* row) {
 void Machine::deliver(std::int64_t frame, const std::vector<std::uint8_t>& bytes) {
   FrameTimes& times = times_[static_cast<std::size_t>(frame)];
   times.at_host = sc_core::sc_time_stamp();
+  tell(frame, FrameStep::kAtHost);
   latencies_.add(static_cast<std::size_t>(frame), times);
   activities_.push_back(activity());
   --output_buffers_used_;

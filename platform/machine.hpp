@@ -84,6 +84,7 @@ class Machine final : public sc_core::sc_module {
   const ClockDomain& link_clock() const { return link_clock_; }
 
  private:
+  void tell(std::int64_t frame, FrameStep step);
   void frame_in_memory(std::int64_t frame);
   void start_when_possible();
   void start_core();

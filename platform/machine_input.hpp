@@ -11,6 +11,7 @@
 #include "modules/map_codec.hpp"
 #include "platform/algorithm_parameters.hpp"
 #include "platform/frame.hpp"
+#include "traces/trace_event.hpp"
 
 namespace parallax {
 
@@ -33,6 +34,9 @@ struct MachineInput {
   /// one, without images, until the host has all frames, so that every frame meets the traffic of its
   /// successors.
   std::function<StereoFrame(std::int64_t frame)> expose;
+  /// Called, if there is one, when a frame comes to a step, at that date: exposed, first byte in memory, in memory, core
+  /// started, results in memory, at the host. Of the frames after the last one, too.
+  std::function<void(std::int64_t frame, FrameStep step)> step;
   /// Called when the host has all frames; if there is none, the simulation is stopped then (sc_stop).
   std::function<void()> finished;
   /// Called, if there is one, once a frame, in order, when the host has it.

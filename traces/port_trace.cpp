@@ -41,6 +41,7 @@ void PortTrace::transferred(const BusMaster&, const BusTransfer& transfer) {
   burst.answered = date(transfer.answered);
   if (wants_bursts_ && window_.contains(burst.place, burst.requested, burst.answered)) bursts_.push(burst);
   // A burst counts for the row in which it begins; its bytes for the rows that they belong to.
+  if (row_.bursts == 0) row_.begin = std::max(row_.begin, burst.requested);
   ++row_.bursts;
   row_.latency += burst.answered - burst.requested;
   row_.longest_latency = std::max(row_.longest_latency, burst.answered - burst.requested);

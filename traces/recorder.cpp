@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "traces/recorder.hpp"
 
+#include <utility>
+
 namespace parallax {
 namespace {
 
@@ -8,10 +10,12 @@ Picoseconds now() { return Picoseconds(static_cast<std::int64_t>(sc_core::sc_tim
 
 }  // namespace
 
-Recorder::Recorder(const sc_core::sc_module_name& name, const RecorderConfig& config, Dataflow& dataflow)
+Recorder::Recorder(const sc_core::sc_module_name& name, const RecorderConfig& config, Dataflow& dataflow,
+                   std::function<void()> add_parts)
     : sc_module(name),
       config_(config),
       dataflow_(dataflow),
+      add_parts_(std::move(add_parts)),
       steps_([](const Step& step) { return step.time; },
              [](const Step& step, TraceSink& sink) { sink.frame_step(step.frame, step.step, step.time); }),
       frames_([](const FrameRecord& record) { return record.at[static_cast<std::size_t>(FrameStep::kAtHost)]; },
@@ -78,6 +82,7 @@ void Recorder::frame(const FrameRecord& record) {
 }
 
 void Recorder::start_of_simulation() {
+  add_parts_();
   for (std::size_t i = 0; i < streams_.size(); ++i) {
     parts_.streams[i].writer = streams_[i]->writer_name();
     parts_.streams[i].reader = streams_[i]->reader_name();

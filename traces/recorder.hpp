@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <memory>
 #include <string>
 #include <systemc>
@@ -31,10 +32,12 @@ struct RecorderConfig {
 /// given to is not listened to, and computed for nobody. Dates are known ahead of kernel time, part by part; they are
 /// kept until kernel time has come to them, so that memory stays flat however long the run.
 ///
-/// Parts and sinks are added before the simulation starts, and must outlive it.
+/// Parts are added when all ports are bound, sinks before; they must outlive the simulation.
 class Recorder final : public sc_core::sc_module {
  public:
-  Recorder(const sc_core::sc_module_name& name, const RecorderConfig& config, Dataflow& dataflow);
+  /// `add_parts` is called when all ports are bound, before the simulation starts.
+  Recorder(const sc_core::sc_module_name& name, const RecorderConfig& config, Dataflow& dataflow,
+           std::function<void()> add_parts);
 
   /// `rows`: of the tokens; none when they belong to no row.
   void add(StreamBase& stream, const std::shared_ptr<const RowEnds>& rows);
@@ -62,6 +65,7 @@ class Recorder final : public sc_core::sc_module {
 
   const RecorderConfig config_;
   Dataflow& dataflow_;
+  const std::function<void()> add_parts_;
   TraceParts parts_;
   TraceSinks sinks_;
   std::vector<const StreamBase*> streams_;

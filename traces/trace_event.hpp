@@ -109,7 +109,8 @@ struct TokenTransfer {
   Picoseconds end;          ///< of the cycle
 };
 
-/// The bytes of a row through a memory port: from the last answer before until the row's last answer.
+/// The bytes of a row through a memory port: from its first request, or the last answer to the row before, until its
+/// last answer.
 struct PortRow {
   PartId port = kNoPart;
   TracePlace place;

@@ -26,6 +26,7 @@
 #include "platform/results/peak_memory.hpp"
 #include "platform/results/progress.hpp"
 #include "platform/results/run_metrics.hpp"
+#include "platform/tracing/tracing.hpp"
 #include "tlm/error.hpp"
 
 namespace parallax {
@@ -49,7 +50,8 @@ class Run {
         padded_(padded_size(size_, granularity_)),
         rectification_(choose_rectification(options, configuration_.machine.rectification.range, *source_,
                                             padded_, notice_)),
-        total_frames_(frames_to_simulate(configuration_.machine, source_->frames(), options.timing_frames)) {
+        total_frames_(frames_to_simulate(configuration_.machine, source_->frames(), options.timing_frames)),
+        trace_choice_(read_trace_options(options.trace)) {
     if (const std::string line = padding_notice(size_, granularity_); !line.empty()) note(line);
     const DisparityRange range = configuration_.machine.matching.range();
     writing_.colors = {range.offset, range.last()};
@@ -72,15 +74,21 @@ class Run {
       if (interruption.requested()) stop();
       return guarded(frame, [&] { return expose(frame); });
     };
+    input.step = [&](std::int64_t frame, FrameStep step) {
+      if (tracing_) tracing_->frame_step(frame, step);
+    };
     input.deliver = [&](const FrameResult& result) {
+      if (tracing_) tracing_->delivered(result.index);
       if (interruption.requested() && delivered_ + 1 < total_frames_) stop();
       guarded(delivered_, [&] { return take(result), 0; });
     };
     const Machine machine("machine", configuration_.machine, input);
+    if (options_.trace.wanted()) tracing_ = std::make_unique<Tracing>(trace_choice_, machine, *folder_);
     sc_core::sc_start();
     progress_.reset();
     if (failure_) std::rethrow_exception(failure_);
     if (stopping_) return interrupted(interruption.signal());
+    if (tracing_) tracing_->finish();
     if (!machine.finished()) {
       context_.err << "parallax: error: " << deadlock_message(machine);
       return kMachineStuck;
@@ -185,6 +193,8 @@ class Run {
   const RectificationChoice rectification_;
   const std::int64_t total_frames_;
   std::unique_ptr<OutputFolder> folder_;
+  const TraceChoice trace_choice_;
+  std::unique_ptr<Tracing> tracing_;
   FrameResultOptions writing_;
   std::unique_ptr<Progress> progress_;
   RunTotals totals_;

@@ -108,6 +108,35 @@ void add_run_command(CLI::App& app, CommandContext& context) {
           "Least number of frames to simulate; beyond the input, frames are timed without images. If not "
           "given: so many that all buffers have been full, and three more")
       ->group("Timing");
+  command
+      .add_option("--trace", options->trace.formats,
+                  "Write what happened when: perfetto (trace.pftrace), vcd, csv (trace_*.csv), json; several separated by "
+                  "commas. Needs --out")
+      ->check(not_empty())
+      ->type_name("FORMAT,...")
+      ->group("Trace");
+  command
+      .add_option("--trace-level", options->trace.level,
+                  "rows: a span for each stage and row, with what it waited for; tokens: every firing, token and burst")
+      ->check(not_empty())
+      ->type_name("LEVEL")
+      ->group("Trace");
+  command
+      .add_option("--trace-from", options->trace.from,
+                  "Begin of what is traced: a frame (8, counted from 1), a row of it (8:120), or a time (12.5ms)")
+      ->check(not_empty())
+      ->type_name("WHEN")
+      ->group("Trace");
+  command.add_option("--trace-to", options->trace.to, "Its end, likewise; that frame and row are traced, that time is not")
+      ->check(not_empty())
+      ->type_name("WHEN")
+      ->group("Trace");
+  command
+      .add_option("--trace-parts", options->trace.parts,
+                  "Stages and memory ports that are traced, a stage with its streams; all if not given")
+      ->check(not_empty())
+      ->type_name("NAME,...")
+      ->group("Trace");
   add_json_option(command, options->json);
   add_configuration_options(command, options->configuration);
   command.callback(

@@ -63,10 +63,29 @@ void check_timing_only(const RunOptions& options) {
   refuse("--no-point-cloud", !options.point_cloud);
 }
 
+// A trace is a file of one run's.
+void check_trace(const RunOptions& options) {
+  const TraceOptions& trace = options.trace;
+  if (!trace.wanted()) {
+    const char* const alone = !trace.level.empty()  ? "--trace-level"
+                              : !trace.from.empty() ? "--trace-from"
+                              : !trace.to.empty()   ? "--trace-to"
+                              : !trace.parts.empty() ? "--trace-parts"
+                                                     : nullptr;
+    if (alone != nullptr) throw UserError(fmt::format("{} says what of a trace is wanted: it needs --trace", alone));
+    return;
+  }
+  if (options.out.empty()) throw UserError("--trace needs --out: the folder that the trace is written to");
+  if (options.relax || !options.vary.empty()) {
+    throw UserError(fmt::format("--trace is of one run: it cannot go with {}", options.relax ? "--relax" : "--vary"));
+  }
+}
+
 }  // namespace
 
 void check_options(const RunOptions& options) {
   check_timing_only(options);
+  check_trace(options);
   if (options.left.empty() != options.right.empty()) {
     throw UserError(fmt::format("{} is missing: a pair needs --left and --right",
                                 options.left.empty() ? "--left" : "--right"));

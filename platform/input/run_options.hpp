@@ -9,6 +9,7 @@
 
 #include "platform/config/configuration.hpp"
 #include "platform/scene/scene_config.hpp"
+#include "platform/tracing/trace_options.hpp"
 
 namespace parallax {
 
@@ -35,6 +36,7 @@ struct RunOptions {
   std::vector<std::string> vary;  ///< "key=v1,v2,...": a grid of timing-only runs
   bool relax = false;             ///< timing-only runs with one limit at a time taken away
   std::filesystem::path out;
+  TraceOptions trace;  ///< goes into `out`
   bool point_cloud = true;
   bool json = false;
 };

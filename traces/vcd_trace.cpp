@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "traces/vcd_trace.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace parallax {
+namespace {
+
+constexpr std::int32_t kStateBits = 3;
+constexpr std::int64_t kIdle = 7;  // no firing known, none waited for
+constexpr std::int32_t kNumberBits = 32;
+
+// Identifier of the n-th signal: printable characters without a blank.
+std::string code_of(std::size_t number) {
+  constexpr std::size_t kFirst = 33, kCount = 94;
+  std::string code;
+  do {
+    code.push_back(static_cast<char>(kFirst + number % kCount));
+    number /= kCount;
+  } while (number > 0);
+  return code;
+}
+
+std::int32_t bits_for(std::uint64_t value) {
+  std::int32_t bits = 1;
+  while ((value >> bits) != 0) ++bits;
+  return bits;
+}
+
+std::vector<std::string> parts_of(const std::string& path) {
+  std::vector<std::string> parts;
+  std::size_t begin = 0;
+  for (std::size_t dot = path.find('.'); dot != std::string::npos; dot = path.find('.', begin)) {
+    parts.push_back(path.substr(begin, dot - begin));
+    begin = dot + 1;
+  }
+  parts.push_back(path.substr(begin));
+  return parts;
+}
+
+constexpr bool later_first(const std::int64_t a, const std::int64_t b) { return a > b; }
+
+}  // namespace
+
+VcdTrace::SignalId VcdTrace::declare(const std::string& scope, const std::string& name, std::int32_t width) {
+  Signal signal;
+  signal.code = code_of(signals_.size());
+  signal.width = width;
+  const std::string range = width > 1 ? fmt::format(" [{}:0]", width - 1) : "";
+  declarations_.emplace_back(scope, fmt::format("$var wire {} {} {}{} $end\n", width, signal.code, name, range));
+  signals_.push_back(std::move(signal));
+  return signals_.size() - 1;
+}
+
+void VcdTrace::begin(const TraceParts& parts) {
+  parts_ = parts;
+  for (const TraceParts::StagePart& stage : parts.stages) {
+    stages_.push_back({declare(stage.path, "state", kStateBits), declare(stage.path, "frame", kNumberBits),
+                       declare(stage.path, "row", kNumberBits)});
+    signals_[stages_.back().state].value = kIdle;
+  }
+  for (const TraceParts::StreamPart& stream : parts.streams) {
+    streams_.push_back({declare(stream.path, "write", 1), declare(stream.path, "read", 1),
+                        declare(stream.path, "level", bits_for(stream.depth))});
+  }
+  for (const TraceParts::PortPart& port : parts.ports) {
+    ports_.push_back({declare(port.path, "row", kNumberBits), declare(port.path, "requests", kNumberBits)});
+  }
+  for (std::size_t step = 0; step < kFrameSteps; ++step) {
+    steps_.push_back(declare("frames", name_of(static_cast<FrameStep>(step)), kNumberBits));
+  }
+  std::stable_sort(declarations_.begin(), declarations_.end(),
+                   [](const auto& a, const auto& b) { return parts_of(a.first) < parts_of(b.first); });
+  out_.add(std::string_view("$timescale 1 ps $end\n"));
+  out_.add(fmt::format("$comment state: 0 busy, 1 upstream empty, 2 downstream full, 3 memory, 4 synchroniser, 5 blanking, "
+                       "7 idle; level {}; frames: how many have come so far $end\n",
+                       parts.tokens ? "tokens: write and read are high in the cycles in which a token passes"
+                                    : "rows: write and read are high when tokens passed in the row's time before"));
+  std::vector<std::string> open;
+  for (const auto& [scope, line] : declarations_) {
+    const std::vector<std::string> wanted = parts_of(scope);
+    std::size_t common = 0;
+    while (common < open.size() && common < wanted.size() && open[common] == wanted[common]) ++common;
+    for (; open.size() > common; open.pop_back()) out_.add(std::string_view("$upscope $end\n"));
+    for (; open.size() < wanted.size(); open.push_back(wanted[open.size()])) {
+      out_.add(fmt::format("$scope module {} $end\n", wanted[open.size()]));
+    }
+    out_.add(line);
+  }
+  for (; !open.empty(); open.pop_back()) out_.add(std::string_view("$upscope $end\n"));
+  out_.add(std::string_view("$enddefinitions $end\n#0\n$dumpvars\n"));
+  for (Signal& signal : signals_) {
+    append(signal);
+    signal.dumped = signal.value;
+  }
+  out_.add(std::string_view("$end\n"));
+  declarations_.clear();
+}
+
+void VcdTrace::append(const Signal& signal) {
+  if (signal.width == 1) {
+    out_.add(signal.value != 0 ? '1' : '0');
+  } else {
+    out_.add('b');
+    std::int32_t bit = signal.width - 1;
+    while (bit > 0 && ((signal.value >> bit) & 1) == 0) --bit;  // leading zeros are left out
+    for (; bit >= 0; --bit) out_.add(((signal.value >> bit) & 1) != 0 ? '1' : '0');
+    out_.add(' ');
+  }
+  out_.add(signal.code);
+  out_.add('\n');
+}
+
+// Writes what has changed at time_.
+void VcdTrace::dump() {
+  bool stamped = false;
+  for (const SignalId id : changed_) {
+    Signal& signal = signals_[id];
+    signal.changed = false;
+    if (signal.value == signal.dumped) continue;
+    if (!stamped) {
+      out_.add('#');
+      out_.add(time_);
+      out_.add('\n');
+      stamped = true;
+    }
+    append(signal);
+    signal.dumped = signal.value;
+  }
+  changed_.clear();
+  out_.write_if_full();
+}
+
+// Goes on to `time`, past the changes that come by themselves until then.
+void VcdTrace::advance(std::int64_t time) {
+  const auto earliest_first = [](const Later& a, const Later& b) { return later_first(a.time, b.time); };
+  while (!later_.empty() && later_.front().time <= time) {
+    std::pop_heap(later_.begin(), later_.end(), earliest_first);
+    const Later next = later_.back();
+    later_.pop_back();
+    if (next.time > time_) {
+      dump();
+      time_ = next.time;
+    }
+    Signal& signal = signals_[next.signal];
+    signal.value = next.value;
+    if (!signal.changed) changed_.push_back(next.signal);
+    signal.changed = true;
+  }
+  if (time > time_) {
+    dump();
+    time_ = time;
+  }
+}
+
+void VcdTrace::change(Picoseconds time, SignalId id, std::int64_t value) {
+  advance(time.count());
+  Signal& signal = signals_[id];
+  signal.value = value;
+  if (!signal.changed) changed_.push_back(id);
+  signal.changed = true;
+}
+
+void VcdTrace::change_later(Picoseconds time, SignalId signal, std::int64_t value) {
+  const auto earliest_first = [](const Later& a, const Later& b) { return later_first(a.time, b.time); };
+  later_.push_back({time.count(), signal, value});
+  std::push_heap(later_.begin(), later_.end(), earliest_first);
+}
+
+void VcdTrace::row_begins(const StageRow& row) {
+  const StageSignals& stage = stages_[static_cast<std::size_t>(row.stage)];
+  change(row.begin, stage.frame, row.place.frame + 1);
+  change(row.begin, stage.row, row.place.row);
+  if (!parts_.tokens) change(row.begin, stage.state, static_cast<std::int64_t>(StageActivity::kBusy));
+}
+
+void VcdTrace::row(const StageRow& row) {
+  if (parts_.tokens) return;
+  // The row is over: all that is still to be seen of it is the wait that led to the next one's begin.
+  const StageSignals& stage = stages_[static_cast<std::size_t>(row.stage)];
+  change(row.end, stage.state, kIdle);
+}
+
+void VcdTrace::fifo(const FifoSpan& span) {
+  if (parts_.tokens) return;
+  const StreamSignals& stream = streams_[static_cast<std::size_t>(span.stream)];
+  const Picoseconds now = std::max(span.end, Picoseconds(time_));  // spans may come late
+  change(now, stream.write, span.written > 0 ? 1 : 0);
+  change(now, stream.read, span.freed > 0 ? 1 : 0);
+  change(now, stream.level, static_cast<std::int64_t>(span.level));
+}
+
+void VcdTrace::port_row(const PortRow& row) { change(row.end, ports_[static_cast<std::size_t>(row.port)].row, row.place.row); }
+
+void VcdTrace::frame_step(std::int64_t frame, FrameStep step, Picoseconds time) {
+  change(time, steps_[static_cast<std::size_t>(step)], frame + 1);
+}
+
+void VcdTrace::firing(const StageFiring& firing) {
+  const StageSignals& stage = stages_[static_cast<std::size_t>(firing.stage)];
+  change(firing.start, stage.state, static_cast<std::int64_t>(firing.work));
+  change_later(firing.end, stage.state, kIdle);
+}
+
+void VcdTrace::token(const TokenTransfer& token) {
+  StreamSignals& stream = streams_[static_cast<std::size_t>(token.stream)];
+  const SignalId signal = token.read ? stream.read : stream.write;
+  change(token.begin, signal, 1);
+  change_later(token.end, signal, 0);
+  stream.level_now += token.read ? -1 : 1;
+  change_later(token.end, stream.level, stream.level_now);
+}
+
+void VcdTrace::requested(const BurstRequest& request) {
+  const SignalId signal = ports_[static_cast<std::size_t>(request.port)].requests;
+  change(request.time, signal, signals_[signal].value + 1);
+}
+
+void VcdTrace::burst(const BurstTransfer& burst) {
+  const SignalId signal = ports_[static_cast<std::size_t>(burst.port)].requests;
+  change(burst.answered, signal, signals_[signal].value - 1);
+}
+
+void VcdTrace::end(Picoseconds time, const std::vector<EndlessWait>& waits) {
+  for (const EndlessWait& wait : waits) {
+    for (std::size_t stage = 0; stage < parts_.stages.size(); ++stage) {
+      if (parts_.stages[stage].path != wait.waiter) continue;
+      change(std::max(time, Picoseconds(time_)), stages_[stage].state,
+             static_cast<std::int64_t>(wait.on_full ? StageActivity::kBlocked : StageActivity::kStarved));
+    }
+  }
+  advance(std::max(time.count(), time_));
+  while (!later_.empty()) advance(later_.front().time);
+  dump();
+  out_.write();
+}
+
+}  // namespace parallax
