@@ -168,7 +168,8 @@ bool Acquisition::note_trigger() {
   const Cycles cycle = next_;
   next_ = trigger_->exposed(++counts_.triggers);
   // An exposure that may not overlap the read-out finds the sensors busy when it begins.
-  const Cycles begin = config_.camera.overlap ? cycle : cycle - exposure_;
+  // That of the first one may begin before the model's time does.
+  const Cycles begin = config_.camera.overlap ? cycle : std::max(Cycles(0), cycle - exposure_);
   const bool right_free =
       skew_ == Cycles(0) ? !right_sensor_.reads_out_in(begin) : right_sensor_.free_by(begin + skew_);
   const bool taken = !left_sensor_.reads_out_in(begin) && right_free;

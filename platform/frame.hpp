@@ -53,6 +53,7 @@ struct Activity {
   Cycles camera;            ///< camera cycles in which a sensor read a frame out
   CameraCounts cameras;
   sc_core::sc_time output_full;  ///< in which only a buffer for its results kept the core from a frame
+  sc_core::sc_time software;     ///< in which software was about to start the core
   sc_core::sc_time core;         ///< in which the core worked on a frame or was about to be started
   Cycles wire;                   ///< link cycles with a packet on the wire
   Cycles host;                   ///< link cycles in which the host was taking pixels

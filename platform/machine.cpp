@@ -139,6 +139,7 @@ void Machine::start_when_possible() {
   note_output_full(frame && !buffer);
   if (!frame || !buffer) return;
   starting_ = true;
+  starting_since_ = sc_core::sc_time_stamp();
   ++output_buffers_used_;
   if (in_core_ == 0) core_taken_since_ = sc_core::sc_time_stamp();
   start_.notify(sc_core::sc_time(static_cast<double>(config_.software.response_ns), sc_core::SC_NS));
@@ -178,6 +179,7 @@ void Machine::start_core() {
 // The core's part, within the write to its control register.
 void Machine::core_started(const FrameCommand& command) {
   starting_ = false;
+  starting_time_ += sc_core::sc_time_stamp() - starting_since_;
   ++in_core_;
   const std::int64_t frame = started_++;
   times_[static_cast<std::size_t>(frame)].core_started = sc_core::sc_time_stamp();
@@ -365,6 +367,7 @@ Activity Machine::activity() {
   }
   activity.camera = sensor().busy();
   activity.cameras = acquisition_.counts();
+  activity.software = starting_time_ + (starting_ ? activity.time - starting_since_ : sc_core::SC_ZERO_TIME);
   activity.core = core_taken();
   note_output_full(output_full_);
   activity.output_full = output_full_time_;

@@ -127,7 +127,9 @@ class Machine final : public sc_core::sc_module {
   std::vector<bool> values_;         // whether a frame carries images
   std::int64_t in_memory_ = 0;       // frames
   std::int64_t started_ = 0;         // of them, in the core or through it
-  bool starting_ = false;            // software is about to start the next one
+  bool starting_ = false;            // software is about to start the next one,
+  sc_core::sc_time starting_since_;  // from this date on
+  sc_core::sc_time starting_time_;   // spent with that before
   bool offering_ = false;            // it writes the registers of one: no other start is expected
   bool parameters_written_ = false;  // once, before the first frame
   std::int64_t rejected_starts_ = 0;

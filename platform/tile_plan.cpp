@@ -53,13 +53,22 @@ TilePlan plan_tiles(const TileConfig& config, const DisparityRange& range, int w
                         : "",
                     largest_width(config, range)));
   }
+  if (width % 2 != 0) {
+    throw UserError(fmt::format(
+        "images of {} columns in tiles: the width must be even, two pixels share five bytes of the "
+        "output; image.width_granularity = 2 pads them",
+        width));
+  }
   int number = 2;
   while (columns(number, config, margin) < width) ++number;
   TilePlan plan;
   plan.width = round_up_to_even((width + (number - 1) * margin.both() + number - 1) / number);
+  // Where tiles add little, what rounding adds makes some of them needless.
+  const int step = plan.width - margin.both();
+  number = 1 + (width - plan.width + step - 1) / step;
   for (int i = 0; i < number; ++i) {
     // The last tile ends where the image does; what rounding adds, it shares with the one before.
-    const int begin = i + 1 == number ? width - plan.width : i * (plan.width - margin.both());
+    const int begin = i + 1 == number ? width - plan.width : i * step;
     plan.tiles.push_back({begin, i == 0 ? 0 : begin + margin.left, width});
     if (i > 0) plan.tiles[static_cast<std::size_t>(i) - 1].keep_end = begin + margin.left;
   }

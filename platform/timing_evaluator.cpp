@@ -125,6 +125,13 @@ const char* name(TimingResult::Status status) {
   return "";
 }
 
+std::string TimingResult::advice() const {
+  std::string line = message;
+  while (!line.empty() && line.back() == '\n') line.pop_back();
+  line.erase(0, line.rfind('\n') + 1);
+  return line.erase(0, line.find_first_not_of(' '));
+}
+
 TimingEvaluator::TimingEvaluator(TimingInput input, std::function<bool()> interrupted)
     : input_(std::move(input)), interrupted_(std::move(interrupted)) {}
 

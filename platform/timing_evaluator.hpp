@@ -35,6 +35,9 @@ struct TimingResult {
   Status status = Status::kFailed;
   nlohmann::ordered_json metrics;  ///< of a timing-only run, as timing.json has them; null unless done
   std::string message;             ///< what is wrong, one line or (stuck) several; empty when done
+
+  /// Of the message, the line that says what to do: the last one.
+  std::string advice() const;
 };
 
 /// "done", "invalid", "stuck", "failed", "interrupted".

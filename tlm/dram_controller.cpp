@@ -79,7 +79,10 @@ bool DramController::plan_newest() {
 }
 
 void DramController::run_until(Clock limit, std::vector<Done>& done) {
-  for (plan(); plan_.clock < limit; plan()) issue(done);
+  for (plan(); plan_.clock < limit; plan()) {
+    if (idle() && plan_.command == DramCommand::kRefresh && listener_ == nullptr) skip_refreshes(limit);
+    issue(done);
+  }
   // A direction is chosen in the clock after a queue has changed, when all that entered with the change is
   // known.
   if (changed_ + 1 < limit) writing_ = plan_writing_;
@@ -334,6 +337,16 @@ bool DramController::serve_alone(const Burst& burst, std::uint64_t number, Clock
   command_free_ = changed_ + 1;
   planned_ = false;
   return true;
+}
+
+// With nothing to do and all rows closed, refreshes follow each other like one another: all but the last
+// before `limit` at once.
+void DramController::skip_refreshes(Clock limit) {
+  if (plan_.clock != refresh_due_) return;
+  const Clock refreshes = (limit - 1 - plan_.clock) / timing_.refi;
+  statistics_.refreshes += static_cast<std::uint64_t>(refreshes);
+  refresh_due_ += refreshes * timing_.refi;
+  plan_.clock = refresh_due_;
 }
 
 void DramController::refresh(Clock at) {

@@ -136,6 +136,7 @@ class DramController {
   void precharge(Clock at, Bank& bank);
   void column(Clock at, const Burst& burst, std::vector<Done>& done);
   void lose_time(Clock at, Clock& column_free, std::int64_t& lost) const;
+  void skip_refreshes(Clock limit);
   void refresh(Clock at);
   Clock column_ready(const Burst& burst) const;
   Clock activate_ready(std::uint32_t bank) const;

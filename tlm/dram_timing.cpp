@@ -30,9 +30,10 @@ void DramTiming::validate() const {
           fmt::format("dram.bank_groups = {}: must divide dram.banks = {}", bank_groups, banks));
   require(ccd >= burst_clocks(),
           fmt::format("dram.ccd = {}: must be at least {}, half of dram.burst_length", ccd, burst_clocks()));
-  require(
-      refi == 0 || refi > rfc + rp_all,
-      fmt::format("dram.refi = {}: must be 0 or more than dram.rfc + dram.rp_all = {}", refi, rfc + rp_all));
+  // Or no row could be opened and read between two refreshes.
+  require(refi == 0 || refi > rfc + rp_all + rc,
+          fmt::format("dram.refi = {}: must be 0 or more than dram.rfc + dram.rp_all + dram.rc = {}", refi,
+                      rfc + rp_all + rc));
 }
 
 }  // namespace parallax

@@ -74,24 +74,6 @@ int fail_internally(std::ostream& err, const std::string& line) {
   return kInternalError;
 }
 
-// Quoted for a shell where need be.
-std::string command_line(int argc, const char* const* argv) {
-  constexpr const char* kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./,:@%";
-  std::string line = "parallax";
-  for (int i = 1; i < argc; ++i) {
-    const std::string word = argv[i];
-    line += ' ';
-    if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) {
-      line += word;
-      continue;
-    }
-    line += '\'';
-    for (const char c : word) line += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    line += '\'';
-  }
-  return line;
-}
-
 /// Throws UserError with one line, or returns true when help or version was asked for and printed.
 bool parse(CLI::App& app, int argc, const char* const* argv, std::ostream& out) {
   try {
@@ -123,7 +105,7 @@ int run_command_line(int argc, const char* const* argv, std::ostream& out, std::
   app.add_flag("-v,--verbose", verbose, "Print more")->excludes("--quiet");
   app.fallthrough();  // the options above may follow the command
 
-  CommandContext context{out, err, command_line(argc, argv)};
+  CommandContext context{out, err, CommandLine(argc, argv)};
   add_run_command(app, context);
   add_config_command(app, context);
   add_map_command(app, context);
@@ -134,7 +116,10 @@ int run_command_line(int argc, const char* const* argv, std::ostream& out, std::
   add_validate_command(app, context);
 
   try {
-    if (parse(app, argc, argv, out)) return 0;
+    if (parse(app, argc, argv, out)) {
+      if (!out.flush()) throw UserError("cannot write to standard output");
+      return 0;
+    }
     if (quiet) context.verbosity = Verbosity::kQuiet;
     if (verbose) context.verbosity = Verbosity::kVerbose;
     if (!context.action) throw UserError("no command given; parallax --help lists them");

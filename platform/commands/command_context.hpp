@@ -3,7 +3,8 @@
 
 #include <functional>
 #include <ostream>
-#include <string>
+
+#include "platform/commands/command_line.hpp"
 
 namespace parallax {
 
@@ -12,9 +13,9 @@ enum class Verbosity { kQuiet, kNormal, kVerbose };
 /// What the command line hands to a command. A command registers its options and, when it is the one that was
 /// called, sets `action`; the frame runs it once the whole line has been read without fault.
 struct CommandContext {
-  std::ostream& out;         ///< results
-  std::ostream& err;         ///< messages
-  std::string command_line;  ///< as typed, quoted for a shell
+  std::ostream& out;  ///< results
+  std::ostream& err;  ///< messages
+  CommandLine command_line;
   Verbosity verbosity = Verbosity::kNormal;
   std::function<int()> action{};  ///< returns the exit code; throws UserError for bad input
 };

@@ -15,6 +15,7 @@
 #include "platform/relaxation.hpp"
 #include "platform/results/output_folder.hpp"
 #include "platform/results/progress.hpp"
+#include "platform/results/result_names.hpp"
 
 namespace parallax {
 namespace {
@@ -81,7 +82,7 @@ class Relaxing {
     request.assignments.insert(request.assignments.end(), assignments.begin(), assignments.end());
     const MachineConfig config = load_configuration(request, preset_folders()).machine;
     TimingInput input = inputs_.prepare(config);
-    input.command = context_.command_line;
+    input.command = context_.command_line.text();
     return TimingEvaluator(std::move(input), [this] { return interruption_.requested(); }).evaluate(config);
   }
 
@@ -105,6 +106,7 @@ class Relaxing {
     const nlohmann::ordered_json tree = as_json();
     if (!options_.out.empty()) {
       OutputFolder folder(options_.out);
+      folder.replace(is_result_name);
       folder.write("relaxations.json", tree.dump(2) + "\n");
       folder.publish();
     }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <exception>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <utility>
@@ -25,6 +26,7 @@
 #include "platform/results/limits.hpp"
 #include "platform/results/peak_memory.hpp"
 #include "platform/results/progress.hpp"
+#include "platform/results/result_names.hpp"
 #include "platform/results/run_metrics.hpp"
 #include "platform/tracing/tracing.hpp"
 #include "tlm/error.hpp"
@@ -60,7 +62,10 @@ class Run {
 
   int execute() {
     const Interruption interruption;
-    if (!options_.out.empty()) folder_ = std::make_unique<OutputFolder>(options_.out);
+    if (!options_.out.empty()) {
+      folder_ = std::make_unique<OutputFolder>(options_.out);
+      folder_->replace(is_result_name);
+    }
     progress_ = std::make_unique<Progress>(
         context_.err, context_.verbosity != Verbosity::kQuiet && standard_error_is_terminal(), "frames",
         total_frames_);
@@ -84,7 +89,8 @@ class Run {
     };
     const Machine machine("machine", configuration_.machine, input);
     if (options_.trace.wanted()) tracing_ = std::make_unique<Tracing>(trace_choice_, machine, *folder_);
-    sc_core::sc_start();
+    tell_notes();
+    simulate([&] { return interruption.requested(); });
     progress_.reset();
     if (failure_) std::rethrow_exception(failure_);
     if (stopping_) return interrupted(interruption.signal());
@@ -95,7 +101,7 @@ class Run {
     }
     totals_.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
     totals_.peak_megabytes = peak_memory_megabytes();
-    totals_.command = context_.command_line;
+    totals_.command = context_.command_line.text();
     if (options_.left.empty() && options_.input.empty()) totals_.scene_seed = options_.scene.seed;
     report(measure(machine, totals_, size_.width, size_.height));
     return 0;
@@ -117,12 +123,40 @@ class Run {
     return {};
   }
 
+  // In pieces of simulated time that take this computer some hundredths of a second, and asks in between.
+  void simulate(const std::function<bool()>& interrupted) {
+    using Clock = std::chrono::steady_clock;
+    constexpr std::chrono::milliseconds kShort(10), kLong(100);
+    sc_core::sc_time piece(1, sc_core::SC_MS);
+    do {
+      const Clock::time_point began = Clock::now();
+      sc_core::sc_start(piece, sc_core::SC_EXIT_ON_STARVATION);
+      const Clock::duration took = Clock::now() - began;
+      if (took < kShort && piece < sc_core::sc_time(1000, sc_core::SC_SEC)) piece = piece * 2;
+      if (took > kLong && piece > sc_core::sc_time(1, sc_core::SC_US)) piece = piece / 2;
+      if (sc_core::sc_get_status() == sc_core::SC_STOPPED) return;
+      if (interrupted()) return stop();
+    } while (sc_core::sc_pending_activity());
+  }
+
   void stop() {
     if (!std::exchange(stopping_, true)) sc_core::sc_stop();
   }
 
+  // Told when the run can begin: an error is one line.
   void note(const std::string& line) {
-    if (context_.verbosity != Verbosity::kQuiet) context_.err << "parallax: note: " << line << '\n';
+    if (context_.verbosity == Verbosity::kQuiet) return;
+    if (running_) {
+      context_.err << "parallax: note: " << line << '\n';
+    } else {
+      notes_.push_back(line);
+    }
+  }
+
+  void tell_notes() {
+    running_ = true;
+    for (const std::string& line : notes_) note(line);
+    notes_.clear();
   }
 
   StereoFrame expose(std::int64_t frame) {
@@ -181,6 +215,8 @@ class Run {
     return kSignalled + signal;
   }
 
+  bool running_ = false;
+  std::vector<std::string> notes_;
   const std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
   const RunOptions& options_;
   CommandContext& context_;

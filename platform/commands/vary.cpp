@@ -17,6 +17,7 @@
 #include "platform/config/preset_file.hpp"
 #include "platform/results/output_folder.hpp"
 #include "platform/results/progress.hpp"
+#include "platform/results/result_names.hpp"
 #include "platform/timing_evaluator.hpp"
 #include "tlm/error.hpp"
 
@@ -125,7 +126,10 @@ class Grid {
 
   int run() {
     const Interruption interruption;
-    if (!options_.out.empty()) folder_ = std::make_unique<OutputFolder>(options_.out);
+    if (!options_.out.empty()) {
+      folder_ = std::make_unique<OutputFolder>(options_.out);
+      folder_->replace(is_result_name);
+    }
     const bool quiet = context_.verbosity == Verbosity::kQuiet;
     // At a terminal the growing table is progress enough.
     Progress progress(context_.err, options_.json && !quiet && standard_error_is_terminal(), "points",
@@ -166,7 +170,9 @@ class Grid {
       request.assignments.insert(request.assignments.end(), point.begin(), point.end());
       const Configuration configuration = load_configuration(request, preset_folders());
       TimingInput input = input_.prepare(configuration.machine);
-      input.command = context_.command_line;
+      std::vector<std::string> alone;
+      for (const std::string& assignment : point) alone.insert(alone.end(), {"--set", assignment});
+      input.command = context_.command_line.with({"--vary", "--out"}, alone).text();
       TimingResult result = TimingEvaluator(std::move(input), [&] {
                               return interruption.requested();
                             }).evaluate(configuration.machine);
@@ -204,21 +210,16 @@ class Grid {
       line += fmt::format("  {:>{}}", value_of(points_[index][i]), width(axes_[i]));
     }
     if (result.status != Status::kDone) {
-      // Of several lines the last one says what to do.
-      std::string message = result.message;
-      while (!message.empty() && message.back() == '\n') message.pop_back();
-      message.erase(0, message.rfind('\n') + 1);
-      message.erase(0, message.find_first_not_of(' '));
-      return line + fmt::format("  {}: {}\n", name(result.status), message);
+      return line + fmt::format("  {}: {}\n", name(result.status), result.advice());
     }
     const auto metric = [&](const char* group, const char* metric_name) {
       return result.metrics.at(group).at(metric_name).at("value");
     };
     if (range_varies())
       line += fmt::format("  {:>11}", metric("input", "disparity_range").get<std::int64_t>());
+    if (metric("performance", "frame_rate") == 0) return line + "  one frame has no rate\n";
     line += fmt::format("  {:>7.2f} fps  {:>8.3f} ms", metric("performance", "frame_rate").get<double>(),
                         metric("latency", "exposure_to_host_mean").get<double>());
-    if (!result.metrics.contains("limit")) return line + "\n";  // one frame has no steady state
     return line + fmt::format("  {} at {:.1f} %\n", metric("limit", "part").get<std::string>(),
                               metric("limit", "utilisation").get<double>());
   }

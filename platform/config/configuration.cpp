@@ -69,7 +69,7 @@ void add_dram_device(RawConfig& raw, const std::vector<std::filesystem::path>& p
 /// A bus's speed means nothing to a DRAM, nor devices to a bus: who sets one of these together with the
 /// model, or on top of it, is told. Beneath it they may stand, in a preset of another model that is inherited
 /// from.
-void refuse_keys_without_effect(const RawConfig& raw, const MachineConfig& machine) {
+void refuse_keys_without_effect(const RawConfig& raw, const MachineConfig& machine, const Schema& effective) {
   const auto model = raw.find("memory.model");
   const int layer = model == raw.end() ? -1 : model->second.layer;
   const auto refuse = [&](const std::string& key, const std::string& instead) {
@@ -82,6 +82,14 @@ void refuse_keys_without_effect(const RawConfig& raw, const MachineConfig& machi
   const MachineConfig defaults;  // which a preset that lists all keys has, too
   if (machine.memory.model == MemoryModel::kBus) {
     if (machine.memory.device != defaults.memory.device) refuse("memory.device", "memory.model = \"dram\"");
+    MachineConfig usual = defaults;
+    Schema schema;
+    describe(schema, usual);
+    for (const auto& [key, value] : raw) {
+      const Key* const known = key.rfind("dram.", 0) == 0 ? schema.find(key) : nullptr;
+      if (known != nullptr && effective.find(key)->get() != known->get())
+        refuse(key, "memory.model = \"dram\"");
+    }
     return;
   }
   if (machine.memory.bytes_per_cycle != defaults.memory.bytes_per_cycle) {
@@ -107,9 +115,10 @@ Configuration load_configuration(const ConfigurationRequest& request,
     value.layer = std::numeric_limits<int>::max();
     raw[key] = std::move(value);
   }
+  const RawConfig given = raw;
   add_dram_device(raw, preset_folders);
   schema.apply(raw);
-  refuse_keys_without_effect(raw, result.machine);
+  refuse_keys_without_effect(given, result.machine, schema);
   if (request.disparity_range) {
     // The range counts in the parallelism that is in effect by now.
     raw["matching.iterations"] = iterations_for(*request.disparity_range, schema);

@@ -129,13 +129,22 @@ PresetFile read_preset_file(const path& file) {
   return preset;
 }
 
+namespace {
+
+std::string trimmed(const std::string& text) {
+  const std::size_t begin = text.find_first_not_of(" \t");
+  return begin == std::string::npos ? "" : text.substr(begin, text.find_last_not_of(" \t") + 1 - begin);
+}
+
+}  // namespace
+
 std::pair<std::string, RawValue> read_assignment(const std::string& argument) {
   const std::string origin = "--set " + argument;
   const auto equals = argument.find('=');
   if (equals == std::string::npos || equals == 0) throw UserError(origin + ": must have the form key=value");
   if (equals + 1 == argument.size()) throw UserError(origin + ": the value is empty");
-  const std::string key = argument.substr(0, equals);
-  const std::string text = argument.substr(equals + 1);
+  const std::string key = trimmed(argument.substr(0, equals));
+  const std::string text = trimmed(argument.substr(equals + 1));
   RawConfig ignored;
   RawValue raw;
   try {

@@ -9,11 +9,12 @@
 namespace parallax {
 
 void TileConfig::validate() const {
-  const auto even = [](const char* key, std::uint32_t margin) {
-    if (margin % 2 == 0) return;
+  const auto even = [](const char* key, std::uint32_t columns) {
+    if (columns % 2 == 0) return;
     throw UserError(
-        fmt::format("{} = {}: must be even, two pixels share five bytes of the output", key, margin));
+        fmt::format("{} = {}: must be even, two pixels share five bytes of the output", key, columns));
   };
+  even("tiles.limit", limit);
   even("tiles.left_margin", left_margin);
   even("tiles.right_margin", right_margin);
 }
@@ -21,7 +22,8 @@ void TileConfig::validate() const {
 void describe(Schema& schema, TileConfig& config) {
   schema.integer(
       "tiles.limit", config.limit, {8, 65536}, "px",
-      "Columns that the line buffers hold. Wider images are processed in vertical tiles, all rows of one "
+      "Columns that the line buffers hold, even. Wider images are processed in vertical tiles, all rows of "
+      "one "
       "and then all rows of the next.",
       inferred("with two tiles that overlap by 192 columns it gives the largest image, 1856 columns"));
   schema.integer("tiles.largest_number", config.largest_number, {1, 64}, "tiles",

@@ -54,6 +54,10 @@ void check_timing_only(const RunOptions& options) {
     if (options.relax) throw UserError("--relax needs --timing-only");
     return;
   }
+  if (options.relax && options.timing_frames.value_or(2) < 2 && options.frames.value_or(1) < 2) {
+    throw UserError(
+        "--relax compares frame rates, and one frame has none: --timing-frames must be at least 2");
+  }
   if (options.relax && !options.vary.empty()) throw UserError("--relax and --vary exclude each other");
   const auto refuse = [](const char* option, bool given) {
     if (given) throw UserError(fmt::format("--timing-only computes no images: it cannot go with {}", option));
@@ -67,17 +71,19 @@ void check_timing_only(const RunOptions& options) {
 void check_trace(const RunOptions& options) {
   const TraceOptions& trace = options.trace;
   if (!trace.wanted()) {
-    const char* const alone = !trace.level.empty()  ? "--trace-level"
-                              : !trace.from.empty() ? "--trace-from"
-                              : !trace.to.empty()   ? "--trace-to"
+    const char* const alone = !trace.level.empty()   ? "--trace-level"
+                              : !trace.from.empty()  ? "--trace-from"
+                              : !trace.to.empty()    ? "--trace-to"
                               : !trace.parts.empty() ? "--trace-parts"
                                                      : nullptr;
-    if (alone != nullptr) throw UserError(fmt::format("{} says what of a trace is wanted: it needs --trace", alone));
+    if (alone != nullptr)
+      throw UserError(fmt::format("{} says what of a trace is wanted: it needs --trace", alone));
     return;
   }
   if (options.out.empty()) throw UserError("--trace needs --out: the folder that the trace is written to");
   if (options.relax || !options.vary.empty()) {
-    throw UserError(fmt::format("--trace is of one run: it cannot go with {}", options.relax ? "--relax" : "--vary"));
+    throw UserError(
+        fmt::format("--trace is of one run: it cannot go with {}", options.relax ? "--relax" : "--vary"));
   }
 }
 

@@ -13,9 +13,15 @@ namespace {
 constexpr double kSaturated = 0.95;
 // Parts that a slower one feeds run at its pace; those within this share of the largest load count as one.
 constexpr double kSamePace = 0.99;
+constexpr double kFullPace = 0.9995;
+// The core counts as at work while it waits; a part outside it that is at work for so much is what it waits
+// for.
+constexpr double kWaitedFor = 0.9;
 
 // After the warm-up: two frame periods lie between three arrivals at the host.
 constexpr std::int64_t kMeasuredFrames = 3;
+// With cameras that go their own way.
+constexpr std::int64_t kManyFrames = 100;
 
 Cycles cycles_between(const ClockDomain& clock, const sc_core::sc_time& from, const sc_core::sc_time& to) {
   return clock.cycle_at_or_after(to) - clock.cycle_at_or_after(from);
@@ -25,12 +31,14 @@ double ratio(Cycles part, Cycles whole) {
   return static_cast<double>(part.count()) / static_cast<double>(std::max<std::int64_t>(1, whole.count()));
 }
 
-// Of all within kSamePace of the largest share, the first.
+// Of all within kSamePace of the largest share, the first. A pace is followed by all: it is one of them only
+// where nobody is busier.
 const PartLoad& first_at_largest(const std::vector<PartLoad>& loads) {
   double largest = 0;
   for (const PartLoad& load : loads) largest = std::max(largest, load.share);
-  return *std::find_if(loads.begin(), loads.end(),
-                       [&](const PartLoad& l) { return l.share >= kSamePace * largest; });
+  return *std::find_if(loads.begin(), loads.end(), [&](const PartLoad& l) {
+    return l.share >= (l.is_pace ? kFullPace : kSamePace) * largest;
+  });
 }
 
 std::int64_t frames_taken(const Activity& first, const Activity& last) {
@@ -42,19 +50,35 @@ std::int64_t frames_taken(const Activity& first, const Activity& last) {
 PartLoad camera_load(const Machine& machine, const Activity& first, const Activity& last) {
   const CameraConfig& config = machine.config().camera;
   const ClockDomain& clock = machine.camera_clock();
-  PartLoad load{"camera", "clocks.camera_hz",
-                ratio(last.camera - first.camera, cycles_between(clock, first.time, last.time)),
-                clock.seconds(machine.sensor().frame_time())};
+  PartLoad load{"camera", "clocks.camera_hz", 0, clock.seconds(machine.sensor().frame_time())};
   if (config.exposure_ns > 0) {
     const double exposure = config.exposure_ns * 1e-9;
     load.key = "camera.exposure_ns, clocks.camera_hz";
     load.busy = config.overlap ? std::max(exposure, load.busy) : exposure + load.busy;
   }
-  if (config.exposure_ns > 0 || config.frame_rate > 0) {
-    load.share =
-        static_cast<double>(frames_taken(first, last)) * load.busy / (last.time - first.time).to_seconds();
+  if (config.frame_rate == 0 && config.skew_ns > 0) {
+    load.key += ", camera.skew_ns";
+    load.busy += config.skew_ns * 1e-9;  // the later image ends the frame
   }
+  const bool by_cycles = config.exposure_ns == 0 && config.frame_rate == 0 && config.skew_ns == 0;
+  load.share = by_cycles ? ratio(last.camera - first.camera, cycles_between(clock, first.time, last.time))
+                         : static_cast<double>(frames_taken(first, last)) * load.busy /
+                               (last.time - first.time).to_seconds();
   load.share = std::min(1.0, load.share);  // frames are counted whole
+  load.core_waits = config.early_start_rows > 0;
+  return load;
+}
+
+// The cameras set the pace as far as their frames come through.
+PartLoad camera_rate_load(const Machine& machine, const SteadyWindow& window, const Activity& first,
+                          const Activity& last) {
+  const double rate = machine.config().camera.frame_rate;
+  const auto through =
+      static_cast<std::int64_t>(window.frames()) + last.cameras.faulty - first.cameras.faulty;
+  const double elapsed = (last.time - first.time).to_seconds();
+  PartLoad load{"camera_frame_rate", "camera.frame_rate", 0, 1.0 / rate};
+  load.share = std::min(1.0, static_cast<double>(through) / (elapsed * rate));
+  load.is_pace = true;
   return load;
 }
 
@@ -62,7 +86,15 @@ PartLoad camera_load(const Machine& machine, const Activity& first, const Activi
 
 std::int64_t frames_to_simulate(const MachineConfig& config, std::int64_t input_frames,
                                 std::optional<std::int64_t> asked) {
-  return std::max(input_frames, asked.value_or(warm_up_frames(config) + kMeasuredFrames));
+  std::int64_t measured = kMeasuredFrames;
+  if (config.camera.frame_rate > 0 || config.camera.fault != CameraFault::kNone) {
+    // Buffers fill, or not; frames jitter, and some are lost: of these, whole rounds.
+    const std::int64_t round = config.camera.fault == CameraFault::kNone
+                                   ? 1
+                                   : std::max<std::int64_t>(1, std::int64_t{config.camera.fault_every} - 1);
+    measured = 1 + (kManyFrames + round - 1) / round * round;
+  }
+  return std::max(input_frames, asked.value_or(warm_up_frames(config) + measured));
 }
 
 SteadyWindow steady_window(const Machine& machine) {
@@ -92,18 +124,12 @@ std::vector<PartLoad> part_loads(const Machine& machine, const SteadyWindow& win
     loads.push_back(
         {"memory", config.memory.model == MemoryModel::kDram ? "memory.device" : "memory.bytes_per_cycle",
          ratio(work, memory->cycle_at_or_after(last.time) - memory->cycle_at_or_after(first.time)),
-         memory->seconds(work) / frames});
+         memory->seconds(work) / frames, true});
   }
 
   const double elapsed = (last.time - first.time).to_seconds();
   loads.push_back(camera_load(machine, first, last));
-  if (config.camera.frame_rate > 0) {
-    // The cameras set the pace as far as their frames are taken.
-    const std::int64_t triggers = last.cameras.triggers - first.cameras.triggers;
-    loads.push_back({"camera_frame_rate", "camera.frame_rate",
-                     ratio(Cycles(frames_taken(first, last)), Cycles(triggers)),
-                     1.0 / config.camera.frame_rate});
-  }
+  if (config.camera.frame_rate > 0) loads.push_back(camera_rate_load(machine, window, first, last));
 
   const std::vector<Machine::Port>& ports = machine.ports();
   for (std::size_t port = 0; port < last.ports.size(); ++port) {
@@ -115,6 +141,10 @@ std::vector<PartLoad> part_loads(const Machine& machine, const SteadyWindow& win
                      occupied.to_seconds() / places / frames});
   }
 
+  if (config.software.response_ns > 0) {
+    const double starting = (last.software - first.software).to_seconds();
+    loads.push_back({"software", "software.response_ns", starting / elapsed, starting / frames});
+  }
   if (!config.software.queue_frames) {
     const double taken = (last.core - first.core).to_seconds();
     loads.push_back({"core", "clocks.core_hz, software.response_ns", taken / elapsed, taken / frames});
@@ -143,9 +173,16 @@ LimitVerdict find_limit(const std::vector<PartLoad>& loads) {
   LimitVerdict verdict;
   verdict.busiest = first_at_largest(loads);
   verdict.limited = verdict.busiest.share >= kSaturated;
+  if (verdict.busiest.part == "core") {
+    std::vector<PartLoad> outside;
+    std::copy_if(loads.begin(), loads.end(), std::back_inserter(outside),
+                 [](const PartLoad& l) { return l.core_waits && l.share >= kWaitedFor; });
+    if (!outside.empty()) verdict.busiest = first_at_largest(outside);
+  }
   std::vector<PartLoad> others;
-  std::copy_if(loads.begin(), loads.end(), std::back_inserter(others),
-               [&](const PartLoad& l) { return l.share < kSamePace * verdict.busiest.share; });
+  std::copy_if(loads.begin(), loads.end(), std::back_inserter(others), [&](const PartLoad& l) {
+    return l.share < kSamePace * verdict.busiest.share && l.part != verdict.busiest.part;
+  });
   verdict.next = others.empty() ? verdict.busiest : first_at_largest(others);
   verdict.otherwise = "streams.<name>.depth, camera.frame_buffers, link.output_buffers";
   return verdict;

@@ -22,7 +22,8 @@ struct SteadyWindow {
 };
 
 /// Frames that a run simulates: all of the input, and at least `asked`; if nothing is asked, so many that two
-/// frame periods lie after the warm-up.
+/// frame periods lie after the warm-up, or a hundred and more where cameras have a rate of their own or
+/// faults.
 std::int64_t frames_to_simulate(const MachineConfig& config, std::int64_t input_frames,
                                 std::optional<std::int64_t> asked);
 
@@ -32,9 +33,11 @@ SteadyWindow steady_window(const Machine& machine);
 /// How much of the time a part of the machine is at work.
 struct PartLoad {
   std::string part;
-  std::string key;   ///< the configuration key that makes it faster
-  double share = 0;  ///< of the window, 0..1
-  double busy = 0;   ///< s a frame: the frame period if nothing else took longer
+  std::string key;          ///< the configuration key that makes it faster
+  double share = 0;         ///< of the window, 0..1
+  double busy = 0;          ///< s a frame: the frame period if nothing else took longer
+  bool core_waits = false;  ///< the core may wait for it while it counts as at work
+  bool is_pace = false;     ///< a pace that is given, not work
 };
 
 /// Every part that can be the limit, in the order in which data meets them: memory, cameras, DMA engines (the

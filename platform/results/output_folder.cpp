@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 
@@ -26,6 +27,27 @@ OutputFolder::OutputFolder(fs::path path) : path_(std::move(path)) {
 OutputFolder::~OutputFolder() {
   pending_.clear();
   remove_made();
+}
+
+void OutputFolder::remove_old() {
+  if (!is_old_) return;
+  std::vector<fs::path> files, folders;
+  std::error_code ignored;
+  for (fs::recursive_directory_iterator entry(path_, ignored), end; entry != end; entry.increment(ignored)) {
+    if (entry->is_directory(ignored)) {
+      if (entry.depth() > 0) entry.disable_recursion_pending();
+      folders.push_back(entry->path());
+    } else if (is_old_(entry->path().lexically_relative(path_).string())) {
+      files.push_back(entry->path());
+    }
+  }
+  is_old_ = nullptr;
+  for (const fs::path& file : files) fs::remove(file, ignored);
+  for (const fs::path& folder : folders) {
+    const bool ours = std::any_of(files.begin(), files.end(),
+                                  [&](const fs::path& file) { return file.parent_path() == folder; });
+    if (ours) fs::remove(folder, ignored);  // if it is empty
+  }
 }
 
 void OutputFolder::remove_made() {
@@ -72,6 +94,7 @@ void OutputFolder::write(const std::string& name, const std::vector<unsigned cha
 void OutputFolder::publish() {
   try {
     for (const auto& file : pending_) file->close();
+    remove_old();
     for (const auto& file : pending_) file->publish();
   } catch (...) {
     pending_.clear();

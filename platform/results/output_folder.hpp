@@ -2,9 +2,11 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "platform/results/output_file.hpp"
@@ -25,6 +27,10 @@ class OutputFolder {
 
   const std::filesystem::path& path() const { return path_; }
 
+  /// Files that were there before and for whose path `is_old` says yes are removed at the first publish():
+  /// what a reader finds then is of one run.
+  void replace(std::function<bool(const std::string& path)> is_old) { is_old_ = std::move(is_old); }
+
   /// A file of the next publish(); `name` may lie in a subfolder, which is made. The reference is good until
   /// then.
   OutputFile& open(const std::string& name);
@@ -39,10 +45,12 @@ class OutputFolder {
 
  private:
   void make(const std::filesystem::path& folder);
+  void remove_old();
   void remove_made();  ///< those that are empty
 
   std::filesystem::path path_;
-  std::vector<std::filesystem::path> made_;  ///< folders that did not exist before, outermost first
+  std::function<bool(const std::string&)> is_old_;  ///< until the first publish()
+  std::vector<std::filesystem::path> made_;         ///< folders that did not exist before, outermost first
   std::vector<std::unique_ptr<OutputFile>> pending_;
 };
 

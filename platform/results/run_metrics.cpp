@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "platform/machine_rows.hpp"
 #include "platform/results/energy.hpp"
 #include "platform/results/limits.hpp"
 #include "platform/results/stage_time.hpp"
@@ -86,14 +87,11 @@ void add_stalls(MetricGroup& memory, const Machine& machine, const SteadyWindow&
   }
 }
 
-void add_port(MetricGroup& group, const BusMaster& port, const SteadyWindow& window, std::uint64_t bytes,
-              double seconds_passed) {
+void add_port(MetricGroup& group, const BusMaster& port, const SteadyWindow& window, double bytes_per_frame,
+              double bytes_per_second) {
   const std::string all = "the whole run";
-  const double frames = static_cast<double>(std::max<std::size_t>(1, window.frames()));
-  group.add({"bytes_per_frame", static_cast<double>(bytes) / frames, "B", "Bytes through the port, a frame.",
-             window.text});
-  group.add({"bandwidth", seconds_passed == 0 ? 0 : static_cast<double>(bytes) / seconds_passed / 1e6, "MB/s",
-             "Bytes through the port by time.", window.text});
+  group.add({"bytes_per_frame", bytes_per_frame, "B", "Bytes through the port, a frame.", window.text});
+  group.add({"bandwidth", bytes_per_second / 1e6, "MB/s", "Bytes through the port by time.", window.text});
   const LatencyHistogram& latencies = port.latencies();
   const auto latency = [&](const char* name, const sc_core::sc_time& time, const char* description) {
     group.add({name, seconds(time) * 1e9, "ns", description, all});
@@ -119,8 +117,11 @@ void add_dram(MetricGroup& memory, const DramStatistics& first, const DramStatis
   const auto bursts = static_cast<double>(last.reads + last.writes - first.reads - first.writes);
   memory.add(
       {"row_hits",
-       bursts == 0 ? 0 : 100.0 * (1.0 - static_cast<double>(last.activates - first.activates) / bursts), "%",
-       "DRAM bursts that opened no row.", window.text});
+       // A refresh may close a row before its burst has come: there may be more rows opened than bursts.
+       bursts == 0
+           ? 0
+           : 100.0 * std::max(0.0, 1.0 - static_cast<double>(last.activates - first.activates) / bursts),
+       "%", "DRAM bursts that opened no row.", window.text});
   per_frame("bursts", first.reads + first.writes, last.reads + last.writes, "bursts",
             "DRAM bursts, a frame.");
   per_frame("activates", first.activates, last.activates, "rows", "DRAM rows opened, a frame.");
@@ -144,6 +145,7 @@ void add_memory(MetricGroup& root, const Machine& machine, const SteadyWindow& w
     return 100.0 * (static_cast<double>(taken.count()) /
                     static_cast<double>(std::max<std::int64_t>(1, cycles.count())));
   };
+  const MachineRows rows(machine);
   std::uint64_t total = 0;
   Cycles total_bus;  // whole cycles, so that a bus that is always taken is so for 100 %
   for (std::size_t id = 0; id < ports.size(); ++id) {
@@ -152,7 +154,12 @@ void add_memory(MetricGroup& root, const Machine& machine, const SteadyWindow& w
     const Cycles bus = last.ports[id].bus - first.ports[id].bus;
     total += bytes;
     total_bus += bus;
-    add_port(group, *ports[id].master, window, bytes, elapsed);
+    // After a single frame, the next one's traffic has begun.
+    const double per_frame = window.frames() == 0
+                                 ? static_cast<double>(rows.of(ports[id])->frame())
+                                 : static_cast<double>(bytes) / static_cast<double>(window.frames());
+    add_port(group, *ports[id].master, window, per_frame,
+             elapsed == 0 ? 0 : static_cast<double>(bytes) / elapsed);
     if (model != nullptr) {
       group.add(
           {"share", share(bus), "%", "Time in which the memory's bus was taken for the port.", window.text});

@@ -52,7 +52,7 @@ RunReport read_run_report(const std::string& path) {
     throw UserError(
         fmt::format("{}: written by version {}, this is {}; run it again", report.path, by, version()));
   }
-  for (const char* group : {"performance", "limit", "stages", "memory"}) {
+  for (const char* group : {"performance", "stages", "memory"}) {
     if (tree.contains(group) && tree.at(group).is_object()) continue;
     throw UserError(fmt::format("{}: damaged, it has no {}; run parallax again", report.path, group));
   }

@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "platform/config/nearest_name.hpp"
-#include "platform/tracing/machine_rows.hpp"
+#include "platform/machine_rows.hpp"
 #include "tlm/error.hpp"
 #include "traces/csv_trace.hpp"
 #include "traces/json_trace.hpp"
@@ -24,13 +24,16 @@ std::vector<std::string> split(const std::string& text) {
   return names;
 }
 
-Picoseconds date(const sc_core::sc_time& time) { return Picoseconds(static_cast<std::int64_t>(time.value())); }
+Picoseconds date(const sc_core::sc_time& time) {
+  return Picoseconds(static_cast<std::int64_t>(time.value()));
+}
 
 // As often as a row takes at the pace of the slowest stage.
 sc_core::sc_time row_time(const Machine& machine) {
   double longest = 0;
   for (const StageInfo& info : machine.pipeline().stages()) {
-    longest = std::max(longest, info.stage->clock().seconds(Cycles(static_cast<std::int64_t>(info.cycles_per_frame()))));
+    longest = std::max(
+        longest, info.stage->clock().seconds(Cycles(static_cast<std::int64_t>(info.cycles_per_frame()))));
   }
   return sc_core::sc_time(longest / machine.input().height, sc_core::SC_SEC);
 }
@@ -68,8 +71,8 @@ const std::vector<std::string>& checked_parts(const std::vector<std::string>& pa
   for (const Machine::Port& port : machine.ports()) names.push_back(port.name);
   for (const std::string& part : parts) {
     if (std::find(names.begin(), names.end(), part) == names.end()) {
-      throw UserError(fmt::format("--trace-parts: there is no stage or memory port '{}'; the nearest is {}", part,
-                                  nearest_name(part, names)));
+      throw UserError(fmt::format("--trace-parts: there is no stage or memory port '{}'; the nearest is {}",
+                                  part, nearest_name(part, names)));
     }
   }
   return parts;
@@ -82,8 +85,9 @@ TraceChoice read_trace_options(const TraceOptions& options) {
   TraceChoice choice;
   for (const std::string& format : split(options.formats)) {
     if (std::find(kFormats.begin(), kFormats.end(), format) == kFormats.end()) {
-      throw UserError(fmt::format("--trace {}: there is no format '{}'; there are perfetto, vcd, csv and json",
-                                  options.formats, format));
+      throw UserError(
+          fmt::format("--trace {}: there is no format '{}'; there are perfetto, vcd, csv and json",
+                      options.formats, format));
     }
     if (std::find(choice.formats.begin(), choice.formats.end(), format) == choice.formats.end()) {
       choice.formats.push_back(format);
@@ -97,7 +101,8 @@ TraceChoice read_trace_options(const TraceOptions& options) {
   if (!options.to.empty()) choice.window.to = read_trace_bound("--trace-to", options.to);
   if (choice.tokens && !choice.window.bounded()) {
     throw UserError(
-        "--trace-level tokens wants a window, as each frame has some ten million events: --trace-from, --trace-to");
+        "--trace-level tokens wants a window, as each frame has some ten million events: --trace-from, "
+        "--trace-to");
   }
   choice.parts = split(options.parts);
   return choice;
@@ -148,7 +153,9 @@ void Tracing::delivered(std::int64_t frame) {
   const FrameTimes& times = machine_.times()[static_cast<std::size_t>(frame)];
   FrameRecord record;
   record.frame = frame;
-  const auto at = [&record](FrameStep step) -> Picoseconds& { return record.at[static_cast<std::size_t>(step)]; };
+  const auto at = [&record](FrameStep step) -> Picoseconds& {
+    return record.at[static_cast<std::size_t>(step)];
+  };
   at(FrameStep::kExposed) = date(times.exposed);
   at(FrameStep::kFirstByte) = date(times.first_byte);
   at(FrameStep::kInMemory) = date(times.in_memory);

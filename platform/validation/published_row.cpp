@@ -5,6 +5,7 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <optional>
 
@@ -46,6 +47,7 @@ class RowReader {
 
   PublishedRow read() const {
     PublishedRow row;
+    row.origin = origin(table_);
     row.name = required<std::string>("name", "text");
     row.source = required<std::string>("source", "text, where it was published");
     if (const auto preset = optional<std::string>("preset", "text")) {
@@ -63,10 +65,10 @@ class RowReader {
     if (row.refused) return row;
     row.metric = required<std::string>("metric", "text, a number of timing.json or frame_time");
     row.unit = required<std::string>("unit", "text");
-    row.published = required<double>("published", "a number above 0");
+    row.published = number("published", "a number above 0");
     if (!(row.published > 0)) fail("published", "a number above 0");
-    row.least = required<double>("least", "a number of percent");
-    row.most = required<double>("most", "a number of percent");
+    row.least = number("least", "a number of percent");
+    row.most = number("most", "a number of percent");
     if (row.most < row.least) fail("most", fmt::format("at least {}, as `least` is", row.least));
     return row;
   }
@@ -93,6 +95,11 @@ class RowReader {
     const std::optional<T> value = optional<T>(key, expected);
     if (!value) fail(key, expected);
     return *value;
+  }
+  double number(const char* key, const char* expected) const {
+    const auto value = required<double>(key, expected);
+    if (!std::isfinite(value)) fail(key, expected);
+    return value;
   }
   void read_assignments(PublishedRow& row) const {
     const toml::node* const node = table_.get("set");

@@ -9,6 +9,7 @@ namespace parallax {
 
 /// One published figure and what the model has to do to predict it.
 struct PublishedRow {
+  std::string origin;  ///< "file:line"
   std::string name;
   std::string source;                    ///< where it was published
   std::string preset;                    ///< empty: that of the file

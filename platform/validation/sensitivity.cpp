@@ -15,9 +15,11 @@ namespace {
 
 constexpr double kStep = 0.1;
 
-std::vector<EffectiveKey> fitted_keys(const std::string& preset) {
+// Of the row's preset, unless the row or the user sets them.
+std::vector<EffectiveKey> fitted_keys(const PublishedRow& row) {
   ConfigurationRequest request;
-  request.preset = preset;
+  request.preset = row.preset;
+  request.assignments = row.assignments;
   std::vector<EffectiveKey> fitted;
   for (const EffectiveKey& key : load_configuration(request, preset_folders()).keys) {
     if (key.provenance.tag == Tag::kFitted) fitted.push_back(key);
@@ -44,7 +46,7 @@ std::vector<double> changes(const std::vector<ValidatedRow>& rows, const std::st
   std::vector<PublishedRow> changed;
   std::vector<std::size_t> places;
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    for (const EffectiveKey& key : fitted_keys(rows[i].row.preset)) {
+    for (const EffectiveKey& key : fitted_keys(rows[i].row)) {
       const std::optional<std::string> assignment = scaled(key, factor);
       if (path_of(key) != path || !assignment) continue;
       changed.push_back(rows[i].row);
@@ -65,7 +67,7 @@ std::vector<double> changes(const std::vector<ValidatedRow>& rows, const std::st
 std::vector<ValidatedRow> rows_with_fitted_parameters(const std::vector<ValidatedRow>& rows) {
   std::vector<ValidatedRow> moved;
   for (const ValidatedRow& row : rows) {
-    if (row.predicted != 0 && !fitted_keys(row.row.preset).empty()) moved.push_back(row);
+    if (row.predicted != 0 && !fitted_keys(row.row).empty()) moved.push_back(row);
   }
   return moved;
 }
@@ -74,9 +76,16 @@ std::vector<Sensitivity> sensitivities(const std::vector<ValidatedRow>& rows,
                                        const std::function<void()>& done,
                                        const std::function<bool()>& interrupted) {
   std::vector<Sensitivity> result;
-  if (rows.empty()) return result;
-  for (const EffectiveKey& key : fitted_keys(rows.front().row.preset)) {
-    if (!scaled(key, 1)) continue;
+  std::vector<EffectiveKey> keys;  // of any row
+  for (const ValidatedRow& row : rows) {
+    for (const EffectiveKey& key : fitted_keys(row.row)) {
+      const bool known = std::any_of(keys.begin(), keys.end(), [&](const EffectiveKey& other) {
+        return path_of(other) == path_of(key);
+      });
+      if (!known && scaled(key, 1)) keys.push_back(key);
+    }
+  }
+  for (const EffectiveKey& key : keys) {
     const std::string path = path_of(key);
     Sensitivity sensitivity{path, to_toml(key.value), changes(rows, path, 1 - kStep, done, interrupted), {}};
     sensitivity.higher = changes(rows, path, 1 + kStep, done, interrupted);

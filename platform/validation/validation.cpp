@@ -31,13 +31,22 @@ EncodedMap map_for(const PublishedRow& row, const MachineConfig& config) {
 
 TimingResult run(const PublishedRow& row, const ConfigurationRequest& request,
                  const std::function<bool()>& interrupted) {
-  const MachineConfig config = load_configuration(request, preset_folders()).machine;
-  const auto check = [&row](const char* key, std::uint32_t most, int wanted) {
-    if (static_cast<std::uint32_t>(wanted) <= most) return;
-    throw UserError(fmt::format("{}: {} = {} is less than the row's {} px", row.name, key, most, wanted));
+  MachineConfig config;
+  try {
+    config = load_configuration(request, preset_folders()).machine;
+  } catch (const UserError& error) {
+    throw UserError(fmt::format("{}: {}: {}", row.origin, row.name, error.what()));
+  }
+  const auto beyond = [](const char* key, std::uint32_t most, int wanted) {
+    if (static_cast<std::uint32_t>(wanted) <= most) return std::string();
+    return fmt::format("{} = {} is less than the row's {} px", key, most, wanted);
   };
-  check("image.max_width", config.image.max_width, row.width);
-  check("image.max_height", config.image.max_height, row.height);
+  for (const std::string& fault : {beyond("image.max_width", config.image.max_width, row.width),
+                                   beyond("image.max_height", config.image.max_height, row.height)}) {
+    if (fault.empty()) continue;
+    if (row.refused) return {TimingResult::Status::kInvalid, nullptr, fault};
+    throw UserError(fmt::format("{}: {}: {}", row.origin, row.name, fault));
+  }
   const EncodedMap map = map_for(row, config);
   TimingInput input;
   input.width = row.width;
@@ -47,13 +56,22 @@ TimingResult run(const PublishedRow& row, const ConfigurationRequest& request,
 }
 
 double metric(const PublishedRow& row, const nlohmann::ordered_json& metrics) {
+  const auto check_unit = [&row](const std::string& unit) {
+    if (row.unit == unit || (unit.empty() && row.unit == "-")) return;
+    throw UserError(fmt::format("{}: {}: unit is '{}', but {} is in {}", row.origin, row.name, row.unit,
+                                row.metric, unit.empty() ? "-" : unit));
+  };
   if (row.metric == "frame_time") {
+    check_unit("ms");
     return 1e3 / metrics.at("performance").at("frame_rate").at("value").get<double>();
   }
   const nlohmann::ordered_json::json_pointer path("/" + row.metric + "/value");
   if (!metrics.contains(path) || !metrics.at(path).is_number()) {
-    throw UserError(fmt::format("{}: timing.json has no number '{}'", row.name, row.metric));
+    throw UserError(
+        fmt::format("{}: {}: timing.json has no number '{}', such as performance/frame_rate; or frame_time",
+                    row.origin, row.name, row.metric));
   }
+  check_unit(metrics.at(nlohmann::ordered_json::json_pointer("/" + row.metric + "/unit")).get<std::string>());
   return metrics.at(path).get<double>();
 }
 
@@ -67,8 +85,7 @@ ValidatedRow compare(const PublishedRow& row, const TimingResult& result) {
     return validated;
   }
   if (result.status != Status::kDone) {
-    validated.limit =
-        fmt::format("{}: {}", name(result.status), result.message.substr(0, result.message.find('\n')));
+    validated.limit = fmt::format("{}: {}", name(result.status), result.advice());
     return validated;
   }
   validated.predicted = metric(row, result.metrics);

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -34,6 +36,32 @@ class Limits : public ::testing::Test {
   test::Program program_;
 };
 
+TEST_F(Limits, CamerasThatAreTooFastLimitNothing) {
+  // The machine alone reaches 2,700 frames/s and more.
+  const std::string size = "--size 64x48 --timing-only ";
+  const double alone = rate(run(size));
+  for (const double faster : {1.002, 1.05, 1.5}) {
+    const nlohmann::json tree = run(size + fmt::format("--set camera.frame_rate={}", alone * faster));
+    EXPECT_NEAR(rate(tree), alone, alone * 1e-3);
+    EXPECT_EQ(limit(tree).rfind("camera", 0), std::string::npos) << faster;
+  }
+  EXPECT_EQ(limit(run(size + fmt::format("--set camera.frame_rate={}", alone * 0.9))), "camera_frame_rate");
+}
+
+TEST_F(Limits, FramesThatJitterOrFailAreMeasuredOverMany) {
+  const std::string size = "--size 64x48 --timing-only --set camera.frame_rate=100 ";
+  EXPECT_NEAR(rate(run(size + "--set camera.jitter_ns=3000000")), 100, 0.5);
+  EXPECT_NEAR(rate(run(size + "--set camera.fault=missing_row")), 90, 0.01);
+  EXPECT_NEAR(rate(run(size + "--set camera.fault=out_of_step --set camera.fault_every=4")), 75, 0.01);
+}
+
+TEST_F(Limits, ASingleFramesBytesAreItsOwn) {
+  const nlohmann::json tree = run("--size 64x48 --timing-only --timing-frames 1");
+  EXPECT_EQ(tree["memory"]["camera_left"]["bytes_per_frame"]["value"], 64 * 48);
+  EXPECT_EQ(tree["memory"]["left"]["bytes_per_frame"]["value"], 64 * 48);
+  EXPECT_EQ(tree["memory"]["output"]["bytes_per_frame"]["value"], 64 * 48 * 5 / 2);
+}
+
 TEST_F(Limits, TheLimitingPartIsNamed) {
   EXPECT_EQ(limit(run("--size 64x48 --set link.host_pixel_rate=1e6")), "host");
   EXPECT_EQ(limit(run("--size 64x48 --set link.line_rate=1e6")), "link");
@@ -54,6 +82,17 @@ TEST_F(Limits, TheLimitingPartIsNamed) {
           "--size 64x48 --set dma.left.burst_bytes=8 --set dma.left.outstanding=1 "
           "--set memory.latency_cycles=2000 --set link.host_pixel_rate=0 --set software.queue_frames=true")),
       "dma_left");
+  // The core counts as at work while it waits for the memory, or for the rows of a frame that comes.
+  EXPECT_EQ(limit(run("--size 160x128 --timing-only --set memory.model=bus --set memory.bytes_per_cycle=1 "
+                      "--set clocks.memory_hz=100e6")),
+            "memory");
+  EXPECT_EQ(limit(run("--size 160x128 --timing-only --set camera.bytes_per_second=5000000 "
+                      "--set camera.early_start_rows=1 --set camera.skew_ns=300000")),
+            "camera");
+  EXPECT_EQ(
+      limit(run(
+          "--size 64x48 --timing-only --set software.response_ns=20000000 --set software.queue_frames=true")),
+      "software");
   const nlohmann::json buffers = run("--size 64x48 --set camera.frame_buffers=1 --set link.output_buffers=1");
   EXPECT_EQ(limit(buffers), "none");
   EXPECT_NE(buffers["limit"]["key"]["value"].get<std::string>().find("camera.frame_buffers"),

@@ -28,7 +28,7 @@ class MapCommand : public test::TemporaryFolder {
   static std::string run(std::vector<std::string> arguments) {
     CLI::App app;
     std::ostringstream out;
-    CommandContext context{out, out, ""};
+    CommandContext context{out, out, CommandLine(0, nullptr)};
     add_map_command(app, context);
     std::reverse(arguments.begin(), arguments.end());
     app.parse(arguments);

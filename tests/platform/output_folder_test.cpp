@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "platform/results/result_names.hpp"
 #include "tests/platform/error_of.hpp"
 #include "tests/platform/temporary_folder.hpp"
 #include "tests/platform/unprivileged.hpp"
@@ -47,6 +48,41 @@ TEST(OutputFolder, ReplacesOlderResultsOnlyWhenPublished) {
   folder.publish();
   EXPECT_EQ(temporary.read("a.json"), "new");
   EXPECT_EQ(entries(temporary.path()), 1U);
+}
+
+TEST(OutputFolder, OldResultsGiveWayToThoseOfAnotherRun) {
+  TemporaryFolder temporary;
+  for (const char* name : {"timing.json", "disparity.png", "mine.txt", "trace_rows.csv"})
+    temporary.write(name, "old");
+  for (const char* folder : {"frame_0000", "frame_0002", "frame_0003", "deep/frame_0000", "point_0001"}) {
+    fs::create_directories(temporary / folder);
+  }
+  for (const char* name :
+       {"frame_0000/disparity.png", "frame_0002/points.ply", "frame_0003/disparity.bin",
+        "frame_0003/note.txt", "deep/frame_0000/disparity.png", "point_0001/timing.json"}) {
+    temporary.write(name, "old");
+  }
+  {
+    OutputFolder failed(temporary.path());
+    failed.replace(is_result_name);
+    failed.write("frame_0000/disparity.png", "never finished");
+  }
+  EXPECT_EQ(temporary.read("timing.json"), "old");
+  OutputFolder folder(temporary.path());
+  folder.replace(is_result_name);
+  folder.write("frame_0000/disparity.png", "new");
+  folder.publish();
+  EXPECT_EQ(temporary.read("frame_0000/disparity.png"), "new");
+  for (const char* gone : {"timing.json", "disparity.png", "trace_rows.csv", "frame_0002",
+                           "frame_0003/disparity.bin", "point_0001"}) {
+    EXPECT_FALSE(fs::exists(temporary / gone)) << gone;
+  }
+  for (const char* kept : {"mine.txt", "frame_0003/note.txt", "deep/frame_0000/disparity.png"}) {
+    EXPECT_EQ(temporary.read(kept), "old") << kept;
+  }
+  folder.write("timing.json", "new");
+  folder.publish();  // the second time nothing is removed
+  EXPECT_EQ(temporary.read("frame_0000/disparity.png"), "new");
 }
 
 TEST(OutputFolder, LeavesNothingOfARunThatFailed) {

@@ -173,13 +173,14 @@ TEST(Assignment, TakesValuesAsTomlWritesThem) {
   EXPECT_EQ(assigned("a=round_robin"), ConfigValue(std::string("round_robin")));
   EXPECT_EQ(assigned("a=1\nb=2"), ConfigValue(std::string("1\nb=2")));
   EXPECT_EQ(read_assignment("a=1").second.source, "command line");
+  EXPECT_EQ(read_assignment(" a = 1 ").first, "a");
   EXPECT_EQ(read_assignment("a={ value = 3, tag = \"S\" }").second.tag, Tag::kStated);
 }
 
 TEST(Assignment, NamesTheArgumentThatIsNone) {
   EXPECT_EQ(error_of([] { read_assignment("a"); }), "--set a: must have the form key=value");
   EXPECT_EQ(error_of([] { read_assignment("=1"); }), "--set =1: must have the form key=value");
-  EXPECT_EQ(error_of([] { read_assignment("a="); }), "--set a=: must have the form key=value");
+  EXPECT_EQ(error_of([] { read_assignment("a="); }), "--set a=: the value is empty");
 }
 
 }  // namespace

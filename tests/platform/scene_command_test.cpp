@@ -21,7 +21,7 @@ namespace {
 int run(const std::string& arguments) {
   CLI::App app;
   std::ostringstream out;
-  CommandContext context{out, out, ""};
+  CommandContext context{out, out, CommandLine(0, nullptr)};
   add_scene_command(app, context);
   app.parse("scene " + arguments);
   return context.action();

@@ -65,12 +65,20 @@ TEST(TilePlan, MarginsAreEven) {
   config.right_margin = 5;
   EXPECT_EQ(error_of([&] { config.validate(); }),
             "tiles.right_margin = 5: must be even, two pixels share five bytes of the output");
+  config = {};
+  config.limit = 193;
+  EXPECT_EQ(error_of([&] { config.validate(); }),
+            "tiles.limit = 193: must be even, two pixels share five bytes of the output");
+  EXPECT_EQ(
+      error_of([&] { plan_tiles({}, range(0, 128), 1101); }),
+      "images of 1101 columns in tiles: the width must be even, two pixels share five bytes of the output; "
+      "image.width_granularity = 2 pads them");
 }
 
 RC_GTEST_PROP(TilePlan, CoversEachColumnOnceWithItsMargins, ()) {
   TileConfig config;
-  config.limit = *rc::gen::inRange(8u, 300u);
-  config.largest_number = *rc::gen::inRange(1u, 6u);
+  config.limit = 2 * *rc::gen::inRange(4u, 150u);
+  config.largest_number = *rc::gen::inRange(1u, 65u);
   config.left_margin = 2 * *rc::gen::inRange(0u, 30u);
   config.right_margin = 2 * *rc::gen::inRange(0u, 30u);
   config.disparities_in_margin = *rc::gen::arbitrary<bool>();
@@ -78,7 +86,7 @@ RC_GTEST_PROP(TilePlan, CoversEachColumnOnceWithItsMargins, ()) {
   const int largest = largest_width(config, disparities);
   const int width = 2 * *rc::gen::inRange(1, largest / 2 + 1);
   const TilePlan plan = plan_tiles(config, disparities, width);
-  RC_ASSERT(plan.width <= static_cast<int>(config.limit + 1));
+  RC_ASSERT(plan.width <= static_cast<int>(config.limit));
   RC_ASSERT(plan.tiles.size() <= config.largest_number);
   const int left = static_cast<int>(config.left_margin) +
                    (config.disparities_in_margin ? disparities.offset + disparities.count : 0);
@@ -96,6 +104,18 @@ RC_GTEST_PROP(TilePlan, CoversEachColumnOnceWithItsMargins, ()) {
     column = tile.keep_end;
   }
   RC_ASSERT(column == width);
+}
+
+TEST(TilePlan, TilesThatAddLittleAreNoMoreThanNeeded) {
+  TileConfig config;
+  config.limit = 194;
+  config.largest_number = 64;
+  config.disparities_in_margin = false;
+  config.left_margin = 160;
+  config.right_margin = 32;
+  const TilePlan plan = plan_tiles(config, range(0, 128), 224);  // two columns from one to the next
+  ASSERT_EQ(plan.tiles.size(), 16u);
+  EXPECT_EQ(plan.tiles.back().begin, 224 - 194);
 }
 
 TEST(CutMap, IsTheMapsColumnsTileByTile) {

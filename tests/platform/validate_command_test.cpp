@@ -175,16 +175,35 @@ TEST_F(ValidateCommand, WhatCannotBeRun) {
   const std::string tail = "published = 325\nleast = 0\nmost = 1\n";
   std::string other = kSmall;
   other.replace(other.find("performance/frame_rate"), 22, "performance/fps");
-  EXPECT_EQ(error(other + tail), "parallax: error: small: timing.json has no number 'performance/fps'\n");
+  const auto row_error = [&](const std::string& lines) {
+    const std::string text = error(lines);
+    const std::size_t begin = text.find("rows.toml:1: ");
+    return begin == std::string::npos ? text : text.substr(begin);
+  };
+  EXPECT_EQ(
+      row_error(other + tail),
+      "rows.toml:1: small: timing.json has no number 'performance/fps', such as performance/frame_rate; or "
+      "frame_time\n");
+  std::string unit = kSmall;
+  unit.replace(unit.find("frames/s"), 8, "km");
+  EXPECT_EQ(row_error(unit + tail),
+            "rows.toml:1: small: unit is 'km', but performance/frame_rate is in frames/s\n");
+  EXPECT_NE(error(std::string(kSmall) + "published = inf\nleast = 0\nmost = 1\n")
+                .find("published must be a number"),
+            std::string::npos);
+  std::string key = kSmall;
+  key.replace(key.find("matching.iterations"), 19, "matching.iteration");
+  EXPECT_EQ(row_error(key + tail).rfind("rows.toml:1: small: --set matching.iteration=1: unknown key", 0),
+            0u);
   EXPECT_NE(error(kSmall + tail, "--set matching.p3=1").find("matching.p3"), std::string::npos);
   std::string wide = kSmall;
   wide.replace(wide.find("64x48"), 5, "1888x48");
-  EXPECT_EQ(error(wide + tail),
-            "parallax: error: small: image.max_width = 1856 is less than the row's 1888 px\n");
+  EXPECT_EQ(row_error(wide + tail),
+            "rows.toml:1: small: image.max_width = 1856 is less than the row's 1888 px\n");
   std::string high = kSmall;
   high.replace(high.find("64x48"), 5, "64x1888");
-  EXPECT_EQ(error(high + tail),
-            "parallax: error: small: image.max_height = 1856 is less than the row's 1888 px\n");
+  EXPECT_EQ(row_error(high + tail),
+            "rows.toml:1: small: image.max_height = 1856 is less than the row's 1888 px\n");
   const test::Outcome none = program_("validate --rows scenescan-pr");
   EXPECT_EQ(none.code, 2);
   EXPECT_NE(none.err.find("no rows 'scenescan-pr'"), std::string::npos) << none.err;

@@ -2,10 +2,13 @@
 // Cameras that expose, that are out of step, and that lose rows; a core and a link that begin early.
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <sstream>
 
 #include "platform/registers/core_driver.hpp"
+#include "tests/cli/program.hpp"
 #include "tests/platform/error_of.hpp"
 #include "tests/timing/in_child.hpp"
 #include "tests/timing/machine_bench.hpp"
@@ -176,6 +179,15 @@ TEST(MachineCameras, TheLinkBeginsEarly) {
     all.emplace_back("link.early_start_rows=64");
     EXPECT_EQ(run(all).at_host, whole.at_host);
   }
+}
+
+// An exposure before the model's time begins keeps no trigger from the sensors.
+TEST(MachineCameras, TheFirstExposureMayBeginBeforeTheRun) {
+  const test::Outcome outcome = test::Program()(
+      "run --timing-only --json --size 64x48 --set camera.frame_rate=60 --set camera.exposure_ns=1000 "
+      "--set camera.overlap=false");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(nlohmann::json::parse(outcome.out)["camera"]["missed_triggers"]["value"], 0);
 }
 
 }  // namespace

@@ -82,12 +82,13 @@ inline MachineCase random_machine(std::uint32_t seed, Contention contention) {
   }
   if (number(0, 1) == 0) c.others.emplace_back("software.queue_frames=true");
   if (number(0, 2) == 0) {
+    c.width += c.width % 2;
     const int left = 2 * number(0, 3);
     const int right = 2 * number(0, 3);
     c.others.emplace_back("tiles.disparities_in_margin=false");
     set("tiles.left_margin", left);
     set("tiles.right_margin", right);
-    set("tiles.limit", std::max({8, (c.width + left + right + 1) / 2, left + right + 2}));
+    set("tiles.limit", (std::max({8, (c.width + left + right + 1) / 2, left + right + 2}) + 1) / 2 * 2);
   }
   const char* formats[] = {"mono8", "mono8", "mono12", "rgb8", "bayer8"};
   c.others.push_back(std::string("camera.format=") + formats[number(0, 4)]);

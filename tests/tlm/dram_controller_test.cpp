@@ -162,5 +162,30 @@ TEST(DramController, WaitsForNothingButRefreshesWhenIdle) {
   EXPECT_EQ(controller.statistics().refreshes, 10u);
 }
 
+// Long pauses are gone over at once, with the refreshes that fall in them.
+TEST(DramController, RefreshesWithoutWorkAreCountedNotGoneThrough) {
+  const DramTiming timing;
+  std::vector<DramController::Done> one, other;
+  DramController stepped(timing, {}), leapt(timing, {});
+  struct Listener final : DramListener {  // who listens is told of each
+    void command(std::int64_t, DramCommand, std::uint32_t, std::uint32_t) override {}
+  } listener;
+  stepped.listen(&listener);
+  for (DramController* controller : {&stepped, &leapt}) {
+    std::vector<DramController::Done>& done = controller == &stepped ? one : other;
+    for (const DramController::Clock at : {10, 5000, 1'000'000, 1'004'160}) {
+      controller->run_until(at, done);
+      controller->submit({{3, 7}, 1, at % 20 == 0}, at);
+    }
+    controller->run_until(2'000'000, done);
+  }
+  ASSERT_EQ(one.size(), other.size());
+  for (std::size_t i = 0; i < one.size(); ++i) EXPECT_EQ(one[i].data_end, other[i].data_end);
+  EXPECT_EQ(stepped.statistics().refreshes, leapt.statistics().refreshes);
+  EXPECT_EQ(stepped.statistics().refreshes, 480u);
+  leapt.run_until(1'000'000'000'000'000, other);  // at once, or this test takes days
+  EXPECT_EQ(leapt.statistics().refreshes, 1'000'000'000'000'000 / 4160u);
+}
+
 }  // namespace
 }  // namespace parallax::test

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "platform/tracing/machine_rows.hpp"
+#include "platform/machine_rows.hpp"
 
 #include <numeric>
 
@@ -10,7 +10,8 @@ namespace parallax {
 namespace {
 
 // Rows of the given lengths, tile by tile.
-std::shared_ptr<RowEnds> rows_of_lengths(const std::vector<std::uint64_t>& lengths, std::int32_t rows_of_a_tile) {
+std::shared_ptr<RowEnds> rows_of_lengths(const std::vector<std::uint64_t>& lengths,
+                                         std::int32_t rows_of_a_tile) {
   auto rows = std::make_shared<RowEnds>();
   rows->rows_of_a_tile = rows_of_a_tile;
   rows->ends.resize(lengths.size());
@@ -52,7 +53,8 @@ void MachineRows::add(const StreamBase& stream, std::uint64_t tokens) {
     streams_[&stream] = ends;
   } else if (tokens % rows == 0) {
     streams_[&stream] = shared(equal_rows(tokens / rows, height_, tiles_));
-  } else if (const std::uint64_t of_a_tile = tokens / static_cast<std::uint64_t>(tiles_); of_a_tile % width_ == 0) {
+  } else if (const std::uint64_t of_a_tile = tokens / static_cast<std::uint64_t>(tiles_);
+             of_a_tile % width_ == 0) {
     // Records of the matcher's store, of less rows, or of the rows of two passes.
     streams_[&stream] = shared(equal_rows(width_, static_cast<std::int32_t>(of_a_tile / width_), tiles_));
   }
@@ -85,7 +87,8 @@ StagePorts MachineRows::of(const StageInfo& info) const {
   }
   if (!ports.read && !ports.written && !info.stage->output_streams(0).empty()) {
     // Words of the map: the one stage whose rows differ in length.
-    if (const auto rows = of(*info.stage->output_streams(0).front())) ports.written = StagePorts::Port{0, rows};
+    if (const auto rows = of(*info.stage->output_streams(0).front()))
+      ports.written = StagePorts::Port{0, rows};
   }
   return ports;
 }
@@ -106,7 +109,8 @@ std::shared_ptr<const RowEnds> MachineRows::of(const Machine::Port& port) const 
     const std::vector<std::uint32_t>& bytes = machine_.map().row_bytes;
     return rows_of_lengths({bytes.begin(), bytes.end()}, height_);
   }
-  if (port.name == "link") return shared(equal_rows(OutputPacking::row_bytes(machine_.input().width, left), height_, 1));
+  if (port.name == "link")
+    return shared(equal_rows(OutputPacking::row_bytes(machine_.input().width, left), height_, 1));
   std::vector<std::uint64_t> lengths;
   const MatcherStore& store = machine_.pipeline().store();
   for (const Tile& tile : machine_.tiles().tiles) {

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace parallax {
+
+/// A word, quoted for a shell where need be.
+std::string shell_word(const std::string& word);
+
+/// The command line as typed.
+class CommandLine {
+ public:
+  CommandLine(int argc, const char* const* argv);
+
+  /// Quoted for a shell; the program is "parallax".
+  std::string text() const;
+  /// Without these options, each of which takes a value, and with more words at its end.
+  CommandLine with(const std::vector<std::string>& removed, const std::vector<std::string>& added) const;
+
+ private:
+  std::vector<std::string> words_;  // after the program
+};
+
+}  // namespace parallax
