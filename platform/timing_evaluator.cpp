@@ -70,9 +70,7 @@ std::string simulate_to_text(const TimingInput& input, const MachineConfig& conf
   } catch (const std::exception& error) {
     result = failure(Status::kFailed, error.what());
   }
-  const nlohmann::ordered_json tree{
-      {"status", name(result.status)}, {"message", result.message}, {"metrics", result.metrics}};
-  return tree.dump();
+  return to_json(result).dump();
 }
 
 TimingResult read(const ForkedCall& call) {
@@ -81,12 +79,7 @@ TimingResult read(const ForkedCall& call) {
     return failure(Status::kFailed, fmt::format("the simulation was ended by signal {} ({})", call.signal,
                                                 ::strsignal(call.signal)));
   }
-  const auto tree = nlohmann::ordered_json::parse(call.output, nullptr, false);
-  if (tree.is_discarded()) return failure(Status::kFailed, "the simulation ended without a result");
-  const std::string word = tree.at("status");
-  const auto* const status =
-      std::find_if(std::begin(kStatuses), std::end(kStatuses), [&](Status s) { return word == name(s); });
-  return {*status, tree.at("metrics"), tree.at("message")};
+  return timing_result(nlohmann::ordered_json::parse(call.output, nullptr, false));
 }
 
 // Whether the map is one for this machine.
@@ -123,6 +116,20 @@ const char* name(TimingResult::Status status) {
       return "interrupted";
   }
   return "";
+}
+
+nlohmann::ordered_json to_json(const TimingResult& result) {
+  return {{"status", name(result.status)}, {"message", result.message}, {"metrics", result.metrics}};
+}
+
+TimingResult timing_result(const nlohmann::ordered_json& tree) {
+  if (!tree.is_object() || !tree.contains("status")) {
+    return failure(Status::kFailed, "the simulation ended without a result");
+  }
+  const std::string word = tree.at("status");
+  const auto* const status =
+      std::find_if(std::begin(kStatuses), std::end(kStatuses), [&](Status s) { return word == name(s); });
+  return {*status, tree.at("metrics"), tree.at("message")};
 }
 
 std::string TimingResult::advice() const {

@@ -42,6 +42,9 @@ struct TimingResult {
 
 /// "done", "invalid", "stuck", "failed", "interrupted".
 const char* name(TimingResult::Status status);
+nlohmann::ordered_json to_json(const TimingResult& result);
+/// From what to_json() made; kFailed from anything else.
+TimingResult timing_result(const nlohmann::ordered_json& tree);
 
 /// The time of one input in any number of machines. Neither images nor the map are computed anew; each
 /// evaluation costs the simulation alone, in a process of its own, as a process can hold one only.

@@ -26,8 +26,10 @@
 #include "platform/results/limits.hpp"
 #include "platform/results/peak_memory.hpp"
 #include "platform/results/progress.hpp"
+#include "platform/results/relaxed_limits.hpp"
 #include "platform/results/result_names.hpp"
 #include "platform/results/run_metrics.hpp"
+#include "platform/standby_evaluator.hpp"
 #include "platform/tracing/tracing.hpp"
 #include "tlm/error.hpp"
 
@@ -87,6 +89,9 @@ class Run {
       if (interruption.requested() && delivered_ + 1 < total_frames_) stop();
       guarded(delivered_, [&] { return take(result), 0; });
     };
+    // Before this process simulates.
+    if (options_.verdict)
+      standby_ = std::make_unique<StandbyEvaluator>(timing_input(), options_.configuration);
     const Machine machine("machine", configuration_.machine, input);
     if (options_.trace.wanted()) tracing_ = std::make_unique<Tracing>(trace_choice_, machine, *folder_);
     tell_notes();
@@ -103,7 +108,9 @@ class Run {
     totals_.peak_megabytes = peak_memory_megabytes();
     totals_.command = context_.command_line.text();
     if (options_.left.empty() && options_.input.empty()) totals_.scene_seed = options_.scene.seed;
-    report(measure(machine, totals_, size_.width, size_.height));
+    MetricGroup metrics = measure(machine, totals_, size_.width, size_.height);
+    judge(metrics, [&] { return interruption.requested(); });
+    report(metrics);
     return 0;
   }
 
@@ -193,6 +200,45 @@ class Run {
     if (source_->frames() > 1) folder_->publish();
   }
 
+  TimingInput timing_input() const {
+    TimingInput input;
+    input.width = size_.width;
+    input.height = size_.height;
+    input.map = &rectification_.map;
+    return input;
+  }
+
+  // What limits, by taking limits away: first that of the busiest part; if it gains nothing, all the others.
+  void judge(MetricGroup& metrics, const std::function<bool()>& interrupted) {
+    if (!standby_ || std::get<double>(metrics.at("performance/frame_rate").value) == 0) return;
+    const nlohmann::ordered_json base = to_json(metrics);
+    const std::string part = base.at("limit").at("part").at("value");
+    std::vector<Relaxation> left = relaxations(configuration_.machine, base);
+    std::vector<Relaxation> tried;
+    std::vector<TimingResult> results;
+    const auto try_all = [&](const std::vector<Relaxation>& wanted) {
+      std::vector<std::vector<std::string>> variants;
+      for (const Relaxation& relaxation : wanted) variants.push_back(relaxation.assignments);
+      for (TimingResult& result : standby_->evaluate(variants, interrupted, [] {}))
+        results.push_back(std::move(result));
+      tried.insert(tried.end(), wanted.begin(), wanted.end());
+    };
+    const auto first =
+        std::find_if(left.begin(), left.end(), [&](const Relaxation& r) { return relieves(r, part); });
+    if (first != left.end()) {
+      const Relaxation relaxation = *first;
+      left.erase(first);
+      try_all({relaxation});
+    }
+    RelaxedLimits limits = relaxed_limits(base, tried, results);
+    if (limits.limit() == nullptr) {
+      try_all(left);
+      limits = relaxed_limits(base, tried, results);
+    }
+    if (interrupted()) return;
+    add_verdict(metrics, verdict(base, limits), limits);
+  }
+
   void report(const MetricGroup& metrics) {
     nlohmann::ordered_json tree = to_json(metrics);
     tree["configuration"] = to_json(configuration_, false);
@@ -231,6 +277,7 @@ class Run {
   std::unique_ptr<OutputFolder> folder_;
   const TraceChoice trace_choice_;
   std::unique_ptr<Tracing> tracing_;
+  std::unique_ptr<StandbyEvaluator> standby_;
   FrameResultOptions writing_;
   std::unique_ptr<Progress> progress_;
   RunTotals totals_;

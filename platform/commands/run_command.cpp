@@ -97,6 +97,10 @@ void add_run_command(CLI::App& app, CommandContext& context) {
                 "With --timing-only: what limits? One run with each limit alone taken away, sorted by what "
                 "it gains")
       ->group("Timing");
+  command
+      .add_flag("!--no-verdict", options->verdict,
+                "Do not run the machine once more without its limit to say what that would gain")
+      ->group("Timing");
   command.add_option("--out", options->out, "Folder for the results; without it only the summary is printed")
       ->check(not_empty())
       ->type_name("DIR")
@@ -110,24 +114,29 @@ void add_run_command(CLI::App& app, CommandContext& context) {
       ->group("Timing");
   command
       .add_option("--trace", options->trace.formats,
-                  "Write what happened when: perfetto (trace.pftrace), vcd, csv (trace_*.csv), json; several separated by "
+                  "Write what happened when: perfetto (trace.pftrace), vcd, csv (trace_*.csv), json; several "
+                  "separated by "
                   "commas. Needs --out")
       ->check(not_empty())
       ->type_name("FORMAT,...")
       ->group("Trace");
   command
       .add_option("--trace-level", options->trace.level,
-                  "rows: a span for each stage and row, with what it waited for; tokens: every firing, token and burst")
+                  "rows: a span for each stage and row, with what it waited for; tokens: every firing, token "
+                  "and burst")
       ->check(not_empty())
       ->type_name("LEVEL")
       ->group("Trace");
   command
-      .add_option("--trace-from", options->trace.from,
-                  "Begin of what is traced: a frame (8, counted from 1), a row of it (8:120), or a time (12.5ms)")
+      .add_option(
+          "--trace-from", options->trace.from,
+          "Begin of what is traced: a frame (8, counted from 1), a row of it (8:120), or a time (12.5ms)")
       ->check(not_empty())
       ->type_name("WHEN")
       ->group("Trace");
-  command.add_option("--trace-to", options->trace.to, "Its end, likewise; that frame and row are traced, that time is not")
+  command
+      .add_option("--trace-to", options->trace.to,
+                  "Its end, likewise; that frame and row are traced, that time is not")
       ->check(not_empty())
       ->type_name("WHEN")
       ->group("Trace");

@@ -34,6 +34,7 @@ struct RunOptions {
   // Output.
   bool timing_only = false;       ///< no images are computed
   std::vector<std::string> vary;  ///< "key=v1,v2,...": a grid of timing-only runs
+  bool verdict = true;            ///< what limits is found by running without it
   bool relax = false;             ///< timing-only runs with one limit at a time taken away
   std::filesystem::path out;
   TraceOptions trace;  ///< goes into `out`

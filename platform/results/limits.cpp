@@ -181,7 +181,10 @@ LimitVerdict find_limit(const std::vector<PartLoad>& loads) {
   }
   std::vector<PartLoad> others;
   std::copy_if(loads.begin(), loads.end(), std::back_inserter(others), [&](const PartLoad& l) {
-    return l.share < kSamePace * verdict.busiest.share && l.part != verdict.busiest.part;
+    // The core's time holds the software's.
+    const bool same =
+        l.part == verdict.busiest.part || (verdict.busiest.part == "core" && l.part == "software");
+    return l.share < kSamePace * verdict.busiest.share && !same;
   });
   verdict.next = others.empty() ? verdict.busiest : first_at_largest(others);
   verdict.otherwise = "streams.<name>.depth, camera.frame_buffers, link.output_buffers";

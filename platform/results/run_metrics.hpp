@@ -7,6 +7,7 @@
 
 #include "platform/machine.hpp"
 #include "platform/results/evaluation.hpp"
+#include "platform/results/relaxed_limits.hpp"
 #include "traces/metrics.hpp"
 
 namespace parallax {
@@ -27,6 +28,9 @@ struct RunTotals {
 /// Everything that `timing.json` and the summary say of a run: "run", "input", "performance", "latency",
 /// "limit", "memory", "energy", "stages", "streams", "quality".
 MetricGroup measure(const Machine& machine, const RunTotals& totals, int image_width, int image_height);
+
+/// Adds to "limit" what taking limits away has shown.
+void add_verdict(MetricGroup& root, const std::string& sentence, const RelaxedLimits& limits);
 
 /// The summary that a person reads, from that tree.
 std::string summary(const MetricGroup& metrics);

@@ -2,9 +2,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+#include <vector>
 
 #include "platform/machine.hpp"
 #include "platform/results/run_metrics.hpp"
+#include "platform/results/stage_time.hpp"
 
 namespace parallax {
 namespace {
@@ -28,52 +33,93 @@ std::string memory_lines(const MetricGroup& m) {
       if (port.find("bytes_per_frame") != nullptr) ports.push_back(port.name);
     }
   }
+  text += fmt::format("  {:<18}{:>9}  {:>8}  {:>10}  {:>16}  {:>6}  {:>7}\n", "port", "MB/s", "bus",
+                      "B a frame", "latency, ns mean", "p95", "largest");
   std::stable_partition(ports.begin(), ports.end(), [](const std::string& port) { return port == "map"; });
   for (const std::string& port : ports) {
     const std::string path = "memory/" + port + "/";
     const std::string name = port == "map" ? "rectification map" : port;
     const std::string share =
         m.find(path + "share") == nullptr ? "-" : fmt::format("{:.2f} %", number(m, path + "share"));
-    text += fmt::format(
-        "  {:<18}{:>9.1f} MB/s {:>8}   {:>9.0f} B a frame, latency {:>4.0f} ns mean, {:>5.0f} p95, {:>5.0f} "
-        "largest\n",
-        name, number(m, path + "bandwidth"), share, number(m, path + "bytes_per_frame"),
-        number(m, path + "latency_mean"), number(m, path + "latency_p95"),
-        number(m, path + "latency_largest"));
+    text += fmt::format("  {:<18}{:>9.1f}  {:>8}  {:>10.0f}  {:>16.0f}  {:>6.0f}  {:>7.0f}\n", name,
+                        number(m, path + "bandwidth"), share, number(m, path + "bytes_per_frame"),
+                        number(m, path + "latency_mean"), number(m, path + "latency_p95"),
+                        number(m, path + "latency_largest"));
   }
   return text;
 }
 
-std::string limit_line(const MetricGroup& m) {
+// What limits, and the keys that move it.
+std::string limit_lines(const MetricGroup& m) {
   if (number(m, "performance/frame_rate") == 0) return "";  // one frame has no steady state
+  std::string text;
+  if (m.find("limit/verdict") != nullptr)
+    text = fmt::format("verdict             {}\n", word(m, "limit/verdict"));
   if (word(m, "limit/part") == "none") {
-    return fmt::format(
-        "limit               no part is at work all the time; the busiest, {}, is at {:.1f} %; look at {}, "
-        "and at the look-ahead that each frame fills anew\n",
-        word(m, "limit/next_part"), number(m, "limit/utilisation"), word(m, "limit/key"));
+    return text + fmt::format(
+                      "limit               no part is at work all the time; the busiest, {}, is at {:.1f} %; "
+                      "look at {}, "
+                      "and at the look-ahead that each frame fills anew\n",
+                      word(m, "limit/next_part"), number(m, "limit/utilisation"), word(m, "limit/key"));
   }
-  return fmt::format("limit               {} at {:.1f} % of the time ({}); next {} at {:.1f} fps\n",
-                     word(m, "limit/part"), number(m, "limit/utilisation"), word(m, "limit/key"),
-                     word(m, "limit/next_part"), number(m, "limit/next_frame_rate"));
+  return text + fmt::format("limit               {} at {:.1f} % of the time ({}); next {} at {:.1f} fps\n",
+                            word(m, "limit/part"), number(m, "limit/utilisation"), word(m, "limit/key"),
+                            word(m, "limit/next_part"), number(m, "limit/next_frame_rate"));
 }
 
-std::string energy_lines(const MetricGroup& m) {
-  constexpr std::size_t kPartsInALine = 5;
-  const std::string power = "power_";
-  std::string text = fmt::format("energy              {:.2f} W estimated, {:.1f} mJ a frame",
-                                 number(m, "energy/power_total"), number(m, "energy/frame_total"));
-  std::size_t parts = 0;
+constexpr std::int64_t kBar = 50;  // characters
+
+// As many characters of each part as it has of the whole, those with the largest remainders upward.
+std::string bar(const std::vector<std::pair<char, std::int64_t>>& parts) {
+  std::vector<std::int64_t> tenths;
+  for (const auto& [character, share] : parts) tenths.push_back(share);
+  std::string text;
+  const std::vector<std::int64_t> lengths = shares_of(tenths, kBar);
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    text.append(static_cast<std::size_t>(lengths[i]), parts[i].first);
+  return text;
+}
+
+std::int64_t thousandths(double percent) { return std::llround(percent * 1000); }
+
+// Where the time of each part goes, from the cameras to the host.
+std::string pipeline_lines(const MetricGroup& m) {
+  static constexpr std::array<char, kAllStageActivities.size()> kLetters{'#', 'e', 'f', 'm', 's', '.'};
+  std::string text =
+      "time                # busy, e upstream empty, f downstream full, m memory, s synchroniser, . "
+      "blanking\n";
+  const std::string limit = m.find("limit/part") == nullptr ? "" : word(m, "limit/part");
+  const auto mark = [&limit](const std::string& part) { return part == limit ? "  limits" : ""; };
+  const auto whole = [&](const std::string& part) {
+    const std::string path = "limit/utilisation_by_part/" + part;
+    if (m.find(path) == nullptr) return;
+    const std::int64_t busy = thousandths(number(m, path));
+    text += fmt::format("  {:<18}{} {:>5.1f} %{}\n", part, bar({{'#', busy}, {' ', thousandths(100) - busy}}),
+                        number(m, path), mark(part));
+  };
+  whole("camera");
+  whole("memory");
+  whole("core");
   for (const MetricGroup& group : m.groups) {
-    if (group.name != "energy") continue;
-    for (const Metric& metric : group.metrics) {
-      if (metric.name.rfind(power, 0) != 0 || metric.name == "power_total") continue;
-      std::string name = metric.name.substr(power.size());
-      std::replace(name.begin(), name.end(), '_', ' ');
-      text += parts++ % kPartsInALine == 0 ? "\n                    " : ", ";
-      text += fmt::format("{} {:.2f}", name, std::get<double>(metric.value));
+    if (group.name != "stages") continue;
+    for (const MetricGroup& stage : group.groups) {
+      std::vector<std::pair<char, std::int64_t>> parts;
+      for (std::size_t i = 0; i < kLetters.size(); ++i) {
+        parts.emplace_back(kLetters.at(i),
+                           static_cast<std::int64_t>(number(stage, name_of(kAllStageActivities[i]))));
+      }
+      text += fmt::format("  {:<18}{} {:>5.1f} %{}\n", stage.name, bar(parts), number(stage, "busy_share"),
+                          mark(stage.name));
     }
   }
-  return text + "\n";
+  whole("link");
+  whole("host");
+  return text;
+}
+
+std::string energy_line(const MetricGroup& m) {
+  return fmt::format("energy              {:.2f} W estimated, {:.1f} mJ a frame\n",
+                     number(m, "energy/power_total"), number(m, "energy/frame_total"));
 }
 
 std::string quality_lines(const MetricGroup& m) {
@@ -107,8 +153,7 @@ std::string summary(const MetricGroup& m) {
     text += fmt::format(", processed as {} x {}", count("input/processed_width"),
                         count("input/processed_height"));
   }
-  text +=
-      fmt::format("\ndisparity range     {} to {} px\n", offset, offset + count("input/disparity_range") - 1);
+  text += fmt::format(", disparities {} to {} px\n", offset, offset + count("input/disparity_range") - 1);
   const std::string window = m.at("performance/frame_rate").window;
   if (const double fps = number(m, "performance/frame_rate"); fps > 0) {
     text += fmt::format("frame rate          {:.2f} fps steady state ({})\n", fps, window);
@@ -120,9 +165,6 @@ std::string summary(const MetricGroup& m) {
       "latency             {:.3f} ms to the first pixel, {:.3f} ms to the last, from frame in memory (first "
       "frame)\n",
       number(m, "latency/first_pixel_first_frame"), number(m, "latency/last_pixel_first_frame"));
-  text += fmt::format(
-      "                    {:.3f} ms and {:.3f} ms with frames before it under way (mean of {})\n",
-      number(m, "latency/first_pixel_mean"), number(m, "latency/last_pixel_mean"), window);
   text += fmt::format("                    {:.3f} ms from exposure to the host, first frame {:.3f} ms\n",
                       number(m, "latency/exposure_to_host_mean"),
                       number(m, "latency/exposure_to_host_first_frame"));
@@ -132,30 +174,40 @@ std::string summary(const MetricGroup& m) {
         "out)\n",
         count("camera/dropped_frames"), count("camera/faulty_frames"), count("camera/missed_triggers"));
   }
-  text += limit_line(m);
+  text += pipeline_lines(m);
+  text += limit_lines(m);
   if (m.find("memory/share") == nullptr) {  // another memory than the machine's own
     text += fmt::format("memory              {:.1f} MB/s\n", number(m, "memory/bandwidth"));
   } else {
-    text += fmt::format("memory              {:.1f} of {:.0f} MB/s usable, bus taken {:.1f} % of the time\n",
+    text += fmt::format("memory              {:.1f} of {:.0f} MB/s usable, bus taken {:.1f} % of the time",
                         number(m, "memory/bandwidth"), number(m, "memory/usable_bandwidth"),
                         number(m, "memory/share"));
-  }
-  if (m.find("memory/row_hits") != nullptr) {
-    text += fmt::format("                    at work {:.1f} % of the time, {:.1f} % row hits\n",
-                        number(m, "memory/at_work"), number(m, "memory/row_hits"));
+    if (m.find("memory/row_hits") != nullptr)
+      text += fmt::format(", {:.1f} % row hits", number(m, "memory/row_hits"));
+    text += '\n';
   }
   text += memory_lines(m);
-  text += fmt::format("                    the map takes {:.3f} B per pixel and image\n",
-                      number(m, "memory/map/bytes_per_pixel_and_image"));
-  text += energy_lines(m);
+  text += energy_line(m);
   text += quality_lines(m);
   return text;
 }
 
 std::string stage_summary(const MetricGroup& m) {
-  std::string text;
+  std::string text = fmt::format(
+      "latency             {:.3f} ms to the first pixel, {:.3f} ms to the last, with frames before it under "
+      "way\n"
+      "map                 {:.3f} B per pixel and image\n",
+      number(m, "latency/first_pixel_mean"), number(m, "latency/last_pixel_mean"),
+      number(m, "memory/map/bytes_per_pixel_and_image"));
   for (const MetricGroup& group : m.groups) {
-    if (group.name == "stages") {
+    if (group.name == "energy") {
+      for (const Metric& metric : group.metrics) {
+        if (metric.name.rfind("power_", 0) == 0) {
+          text += fmt::format("energy {:<20}{:>5.2f} W estimated\n", metric.name.substr(6),
+                              std::get<double>(metric.value));
+        }
+      }
+    } else if (group.name == "stages") {
       for (const MetricGroup& stage : group.groups) {
         text += fmt::format(
             "stage  {:<20}{:>5.1f} % busy, {:>5.1f} % starved, {:>5.1f} % blocked, {:>5.1f} % memory, "

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // `parallax run --timing-only --relax` names the part that was made slow.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -37,7 +38,9 @@ TEST_F(Relax, NamesWhatWasMadeSlow) {
   EXPECT_EQ(limit(alone + "--set matching.interval=64"), "matching_interval");
   EXPECT_EQ(limit(alone + "--set matching.recurrence_latency=64"), "matching_interval");
   EXPECT_EQ(limit(alone + "--set clocks.core_hz=1e6"), "core_clock");
-  EXPECT_EQ(limit(alone + "--set memory.model=bus --set memory.bytes_per_cycle=1 --set clocks.memory_hz=10e6"), "memory");
+  EXPECT_EQ(
+      limit(alone + "--set memory.model=bus --set memory.bytes_per_cycle=1 --set clocks.memory_hz=10e6"),
+      "memory");
   EXPECT_EQ(limit("--size 320x240 -d 64 --set streams.left_texture.depth=64"), "fifos");
 }
 
@@ -94,6 +97,53 @@ TEST_F(Relax, OptionsThatDoNotGoTogether) {
   EXPECT_EQ(both.code, 2);
   EXPECT_EQ(both.err, "parallax: error: --relax and --vary exclude each other\n");
   EXPECT_EQ(program_("run --timing-only --relax --set matching.p3=1").code, 2);
+}
+
+// The sentence of an ordinary run, and its numbers.
+class Verdict : public testing::Test {
+ protected:
+  nlohmann::json limit(const std::string& arguments) const {
+    const Outcome outcome = program_("run --timing-only --json --size 64x48 -d 32 " + arguments);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_EQ(outcome.err, "");
+    return nlohmann::json::parse(outcome.out)["limit"];
+  }
+  Program program_;
+};
+
+TEST_F(Verdict, SaysWhatTakingTheLimitAwayGives) {
+  const nlohmann::json host = limit("--set link.host_pixel_rate=1e6");
+  EXPECT_EQ(host["relaxation"]["value"], "host");
+  const Outcome freed =
+      program_("run --timing-only --json --no-verdict --size 64x48 -d 32 --set link.host_pixel_rate=0");
+  const nlohmann::json tree = nlohmann::json::parse(freed.out);
+  EXPECT_EQ(host["relaxed_frame_rate"]["value"], tree["performance"]["frame_rate"]["value"]);
+  EXPECT_EQ(host["relaxed_part"]["value"], tree["limit"]["part"]["value"]);
+  EXPECT_FALSE(tree["limit"].contains("verdict"));
+  const double rate = tree["performance"]["frame_rate"]["value"];
+  EXPECT_EQ(
+      host["verdict"]["value"],
+      fmt::format("host limits at 100.0 %; a host of any rate gives {:.1f} fps, then core limits", rate));
+}
+
+TEST_F(Verdict, LooksOnWhereTheBusiestPartGainsNothing) {
+  // One buffer each: nothing is busy all the time, and the software's time counts.
+  const nlohmann::json none = limit("--set camera.frame_buffers=1 --set link.output_buffers=1");
+  EXPECT_EQ(none["part"]["value"], "none");
+  EXPECT_EQ(none["relaxation"]["value"], "software");
+  EXPECT_EQ(none["verdict"]["value"].get<std::string>().rfind(
+                "software limits; software that takes no time gives ", 0),
+            0u);
+}
+
+TEST_F(Verdict, ASingleFrameHasNone) { EXPECT_EQ(limit("--timing-frames 1"), nullptr); }
+
+TEST_F(Verdict, AndTheSummaryFitsAScreen) {
+  const Outcome outcome = program_("run --size 96x64 -d 32");
+  const std::vector<std::string> all = lines(outcome.out);
+  EXPECT_LE(all.size(), 40u);
+  for (const std::string& line : all) EXPECT_LE(line.size(), 110u) << line;
+  EXPECT_NE(outcome.out.find("\nverdict             "), std::string::npos) << outcome.out;
 }
 
 }  // namespace

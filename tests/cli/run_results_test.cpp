@@ -102,7 +102,7 @@ TEST_F(RunResults, OfTheBuiltInScene) {
   check_frame("out/", 96, 64);
   const std::string ply = program_.read("out/points.ply");
   EXPECT_EQ(ply.rfind("ply\nformat binary_little_endian 1.0\n", 0), 0U);
-  EXPECT_NE(outcome.out.find("image               96 x 64 px\n"), std::string::npos);
+  EXPECT_NE(outcome.out.find("image               96 x 64 px, disparities"), std::string::npos);
   EXPECT_NE(outcome.out.find("ground truth        coverage "), std::string::npos);
 
   const json tree = timing("out/");

@@ -268,9 +268,9 @@ TEST_F(EnergyReport, PricesChangeNoDate) {
 }
 
 TEST_F(EnergyReport, TheSummarySaysThatItIsAnEstimate) {
-  const test::Outcome outcome = program_("run --timing-only --size 64x48 -d 32");
+  const test::Outcome outcome = program_("run --timing-only --size 64x48 -d 32 -v");
   EXPECT_NE(outcome.out.find(" W estimated, "), std::string::npos) << outcome.out;
-  EXPECT_NE(outcome.out.find("on chip memory "), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("energy on_chip_memory "), std::string::npos) << outcome.out;
 }
 
 TEST_F(EnergyReport, PricesOutOfRangeAreRefused) {
