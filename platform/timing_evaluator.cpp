@@ -13,7 +13,7 @@
 #include "platform/forked_call.hpp"
 #include "platform/input/image_padding.hpp"
 #include "platform/machine.hpp"
-#include "platform/results/deadlock_message.hpp"
+#include "platform/results/deadlock_report.hpp"
 #include "platform/results/limits.hpp"
 #include "platform/results/peak_memory.hpp"
 #include "platform/results/run_metrics.hpp"
@@ -41,7 +41,7 @@ TimingResult simulate(const TimingInput& input, const MachineConfig& config) {
   TimingResult result;
   if (!machine.finished()) {
     result.status = Status::kStuck;
-    result.message = deadlock_message(machine);
+    result.message = message(find_deadlock(machine));
     return result;
   }
   RunTotals totals;

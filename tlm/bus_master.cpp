@@ -25,7 +25,7 @@ sc_core::sc_time BusMaster::place_at() const {
 void BusMaster::send(::tlm::tlm_generic_payload& payload, const sc_core::sc_time& time) {
   requests_.push_back({&payload, time});
   requesting_ = &payload;
-  if (listener_ != nullptr) listener_->requested(*this, time);
+  for (BusListener* listener : listeners_) listener->requested(*this, time);
   const sc_core::sc_time& now = sc_core::sc_time_stamp();
   ::tlm::tlm_phase phase = ::tlm::BEGIN_REQ;
   sc_core::sc_time delay = time - now;
@@ -97,9 +97,10 @@ void BusMaster::answered(::tlm::tlm_generic_payload& payload, const sc_core::sc_
       std::find_if(ending_.rbegin(), ending_.rend(), [&](const Span& s) { return s.end <= time; });
   ending_.insert(later.base(), {request->time, time, payload.get_data_length()});
   latencies_.add(time - request->time);
-  if (listener_ != nullptr) {
-    listener_->transferred(
-        *this, {payload.is_write(), payload.get_address(), payload.get_data_length(), request->time, time});
+  if (!listeners_.empty()) {
+    const BusTransfer transfer{payload.is_write(), payload.get_address(), payload.get_data_length(),
+                               request->time, time};
+    for (BusListener* listener : listeners_) listener->transferred(*this, transfer);
   }
   requests_.erase(request);
   payload.release();

@@ -74,8 +74,8 @@ class BusMaster final : public sc_core::sc_module {
   /// Functional access, in no time.
   void read_now(std::uint64_t address, std::uint8_t* data, std::size_t size);
 
-  /// At most one listener; nullptr for none. It must outlive the simulation.
-  void listen(BusListener* listener) { listener_ = listener; }
+  /// One more listener; it must outlive the simulation.
+  void listen(BusListener& listener) { listeners_.push_back(&listener); }
 
   /// Requests whose answer is not known.
   std::size_t in_flight() const { return requests_.size(); }
@@ -109,7 +109,7 @@ class BusMaster final : public sc_core::sc_module {
   PayloadPool pool_;
   std::uint32_t outstanding_;
   BusClient& client_;
-  BusListener* listener_ = nullptr;
+  std::vector<BusListener*> listeners_;
   tlm_utils::peq_with_cb_and_phase<BusMaster>
       later_;                      // answers that came with the request and are dated later
   std::vector<Request> requests_;  // not answered, in order

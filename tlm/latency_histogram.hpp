@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <systemc>
+#include <utility>
 #include <vector>
 
 namespace parallax {
@@ -39,6 +40,15 @@ class LatencyHistogram {
       }
     }
     return sc_core::SC_ZERO_TIME;
+  }
+
+  /// How many values lay in each bin that holds some, by the largest value that belongs into it.
+  std::vector<std::pair<sc_core::sc_time, std::uint64_t>> counts() const {
+    std::vector<std::pair<sc_core::sc_time, std::uint64_t>> all;
+    for (std::size_t bin = 0; bin < bins_.size(); ++bin) {
+      if (bins_[bin] > 0) all.emplace_back(sc_core::sc_time::from_value(last_of(bin)), bins_[bin]);
+    }
+    return all;
   }
 
  private:

@@ -6,7 +6,9 @@
 namespace parallax {
 namespace {
 
-Picoseconds date(const sc_core::sc_time& time) { return Picoseconds(static_cast<std::int64_t>(time.value())); }
+Picoseconds date(const sc_core::sc_time& time) {
+  return Picoseconds(static_cast<std::int64_t>(time.value()));
+}
 
 }  // namespace
 
@@ -16,14 +18,15 @@ PortTrace::PortTrace(BusMaster& master, PartId id, const std::shared_ptr<const R
       window_(window),
       wants_bursts_(bursts),
       cursor_(rows),
-      rows_([](const PortRow& row) { return row.end; }, [](const PortRow& row, TraceSink& sink) { sink.port_row(row); }),
+      rows_([](const PortRow& row) { return row.end; },
+            [](const PortRow& row, TraceSink& sink) { sink.port_row(row); }),
       requests_([](const BurstRequest& request) { return request.time; },
                 [](const BurstRequest& request, TraceSink& sink) { sink.requested(request); }),
       bursts_([](const BurstTransfer& burst) { return burst.answered; },
               [](const BurstTransfer& burst, TraceSink& sink) { sink.burst(burst); }) {
   row_.port = id;
   row_.place = cursor_.place();
-  master.listen(this);
+  master.listen(*this);
 }
 
 void PortTrace::requested(const BusMaster&, const sc_core::sc_time& time) {

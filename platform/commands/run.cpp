@@ -21,7 +21,7 @@
 #include "platform/input/rectification_choice.hpp"
 #include "platform/input/run_input.hpp"
 #include "platform/machine.hpp"
-#include "platform/results/deadlock_message.hpp"
+#include "platform/results/deadlock_report.hpp"
 #include "platform/results/frame_results.hpp"
 #include "platform/results/limits.hpp"
 #include "platform/results/peak_memory.hpp"
@@ -30,6 +30,7 @@
 #include "platform/results/result_names.hpp"
 #include "platform/results/run_metrics.hpp"
 #include "platform/standby_evaluator.hpp"
+#include "platform/tracing/run_profile.hpp"
 #include "platform/tracing/tracing.hpp"
 #include "tlm/error.hpp"
 
@@ -83,6 +84,7 @@ class Run {
     };
     input.step = [&](std::int64_t frame, FrameStep step) {
       if (tracing_) tracing_->frame_step(frame, step);
+      if (profile_) profile_->frame_step(frame, step);
     };
     input.deliver = [&](const FrameResult& result) {
       if (tracing_) tracing_->delivered(result.index);
@@ -93,6 +95,7 @@ class Run {
     if (options_.verdict)
       standby_ = std::make_unique<StandbyEvaluator>(timing_input(), options_.configuration);
     const Machine machine("machine", configuration_.machine, input);
+    if (folder_) profile_ = std::make_unique<RunProfile>(machine);
     if (options_.trace.wanted()) tracing_ = std::make_unique<Tracing>(trace_choice_, machine, *folder_);
     tell_notes();
     simulate([&] { return interruption.requested(); });
@@ -100,14 +103,12 @@ class Run {
     if (failure_) std::rethrow_exception(failure_);
     if (stopping_) return interrupted(interruption.signal());
     if (tracing_) tracing_->finish();
-    if (!machine.finished()) {
-      context_.err << "parallax: error: " << deadlock_message(machine);
-      return kMachineStuck;
-    }
+    if (profile_) profile_->finish();
     totals_.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
     totals_.peak_megabytes = peak_memory_megabytes();
     totals_.command = context_.command_line.text();
     if (options_.left.empty() && options_.input.empty()) totals_.scene_seed = options_.scene.seed;
+    if (!machine.finished()) return report_stuck(machine);
     MetricGroup metrics = measure(machine, totals_, size_.width, size_.height);
     judge(metrics, [&] { return interruption.requested(); });
     report(metrics);
@@ -200,6 +201,17 @@ class Run {
     if (source_->frames() > 1) folder_->publish();
   }
 
+  // The files say how far it came.
+  int report_stuck(const Machine& machine) {
+    const Deadlock deadlock = find_deadlock(machine);
+    context_.err << "parallax: error: " << message(deadlock);
+    const nlohmann::ordered_json tree =
+        tree_of(measure_stuck(machine, deadlock, totals_, size_.width, size_.height));
+    write(tree);
+    if (options_.json) context_.out << tree.dump(2) << '\n';
+    return kMachineStuck;
+  }
+
   TimingInput timing_input() const {
     TimingInput input;
     input.width = size_.width;
@@ -239,13 +251,22 @@ class Run {
     add_verdict(metrics, verdict(base, limits), limits);
   }
 
-  void report(const MetricGroup& metrics) {
+  nlohmann::ordered_json tree_of(const MetricGroup& metrics) const {
     nlohmann::ordered_json tree = to_json(metrics);
     tree["configuration"] = to_json(configuration_, false);
-    if (folder_) {
-      folder_->write("timing.json", tree.dump(2) + "\n");
-      folder_->publish();
-    }
+    return tree;
+  }
+
+  void write(const nlohmann::ordered_json& tree) {
+    if (!folder_) return;
+    if (profile_) folder_->write("profile.json", profile_->to_json().dump() + "\n");
+    folder_->write("timing.json", tree.dump(2) + "\n");
+    folder_->publish();
+  }
+
+  void report(const MetricGroup& metrics) {
+    const nlohmann::ordered_json tree = tree_of(metrics);
+    write(tree);
     if (options_.json) {
       context_.out << tree.dump(2) << '\n';
     } else if (context_.verbosity != Verbosity::kQuiet) {
@@ -277,6 +298,7 @@ class Run {
   std::unique_ptr<OutputFolder> folder_;
   const TraceChoice trace_choice_;
   std::unique_ptr<Tracing> tracing_;
+  std::unique_ptr<RunProfile> profile_;
   std::unique_ptr<StandbyEvaluator> standby_;
   FrameResultOptions writing_;
   std::unique_ptr<Progress> progress_;

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "platform/machine.hpp"
+#include "platform/results/deadlock_report.hpp"
 #include "platform/results/evaluation.hpp"
 #include "platform/results/relaxed_limits.hpp"
 #include "traces/metrics.hpp"
@@ -28,6 +29,11 @@ struct RunTotals {
 /// Everything that `timing.json` and the summary say of a run: "run", "input", "performance", "latency",
 /// "limit", "memory", "energy", "stages", "streams", "quality".
 MetricGroup measure(const Machine& machine, const RunTotals& totals, int image_width, int image_height);
+
+/// Of a machine that got stuck: "run", "input", "deadlock", "stages", "streams", "quality"; stages and
+/// streams until then.
+MetricGroup measure_stuck(const Machine& machine, const Deadlock& deadlock, const RunTotals& totals,
+                          int image_width, int image_height);
 
 /// Adds to "limit" what taking limits away has shown.
 void add_verdict(MetricGroup& root, const std::string& sentence, const RelaxedLimits& limits);

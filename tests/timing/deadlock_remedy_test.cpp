@@ -11,7 +11,7 @@
 #include <sstream>
 #include <string>
 
-#include "platform/results/deadlock_message.hpp"
+#include "platform/results/deadlock_report.hpp"
 #include "tests/timing/graph_classes.hpp"
 #include "tests/timing/in_child.hpp"
 #include "tests/timing/machine_bench.hpp"
@@ -250,11 +250,11 @@ TEST_P(LargeMachine, TellsWhatFreesItInUnderASecond) {
   const std::string said = run(GetParam().depth, [](const Machine& machine) {
     using Clock = std::chrono::steady_clock;
     const Clock::time_point begin = Clock::now();
-    std::string message = deadlock_message(machine);
+    std::string text = message(find_deadlock(machine));
     const double ms = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
-    std::cerr << message << "told in " << ms << " ms\n";
-    if (ms > 1000) message += "slow";
-    return message.substr(message.rfind("\n  ") + 1);
+    std::cerr << text << "told in " << ms << " ms\n";
+    if (ms > 1000) text += "slow";
+    return text.substr(text.rfind("\n  ") + 1);
   });
   const Large& large = GetParam();
   EXPECT_EQ(said, fmt::format("  streams.{}.depth = {} would free it (now {})\n", large.stream, large.needed,

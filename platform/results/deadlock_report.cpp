@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "platform/results/deadlock_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "platform/config/stream_config.hpp"
+#include "tlm/deadlock.hpp"
+
+namespace parallax {
+namespace {
+
+// The FIFO of a DMA engine has no key in tokens.
+std::string depth_key(const StreamBase& stream) {
+  const std::vector<std::string>& names = pipeline_stream_names();
+  const bool has_key = std::find(names.begin(), names.end(), stream.basename()) != names.end();
+  return has_key ? fmt::format("streams.{}.depth", stream.basename())
+                 : fmt::format("a depth of {}", stream.name());
+}
+
+std::string hint(const Remedy& remedy) {
+  if (!remedy.obstacle.empty()) return fmt::format("  no depth is known to free it: {}\n", remedy.obstacle);
+  if (remedy.depths.size() == 1) {
+    const Remedy::Depth& depth = remedy.depths[0];
+    return fmt::format("  {} = {} would free it (now {})\n", depth_key(*depth.stream), depth.tokens,
+                       depth.stream->depth());
+  }
+  std::vector<std::string> all;
+  for (const Remedy::Depth& depth : remedy.depths) {
+    all.push_back(
+        fmt::format("{} = {} (now {})", depth_key(*depth.stream), depth.tokens, depth.stream->depth()));
+  }
+  return fmt::format("  {} would free it together, none of them alone\n", fmt::join(all, " and "));
+}
+
+}  // namespace
+
+Deadlock find_deadlock(const Machine& machine) {
+  Deadlock deadlock;
+  deadlock.circle = machine.dataflow().deadlock();
+  deadlock.waits = machine.dataflow().waits();
+  const auto frames = static_cast<std::uint64_t>(machine.input().frames) * machine.tiles().tiles.size();
+  if (!deadlock.circle.empty()) deadlock.remedy = smallest_remedy(machine.dataflow(), frames);
+  return deadlock;
+}
+
+std::string message(const Deadlock& deadlock) {
+  if (deadlock.circle.empty()) {
+    return "the machine stopped before the host had all frames; these wait:\n" + describe(deadlock.waits) +
+           "  no circle of streams holds it up, so no depth would free it\n";
+  }
+  return "the machine is deadlocked; nobody in this circle can go on:\n" + describe(deadlock.circle) +
+         hint(deadlock.remedy);
+}
+
+void add_deadlock(MetricGroup& root, const Deadlock& deadlock) {
+  const std::string window = "when it got stuck";
+  MetricGroup& group = root.group("deadlock");
+  std::string remedy = deadlock.circle.empty() ? "no circle of streams holds it up, so no depth would free it"
+                                               : hint(deadlock.remedy);
+  remedy.erase(0, remedy.find_first_not_of(' '));
+  if (!remedy.empty() && remedy.back() == '\n') remedy.pop_back();
+  group.add({"remedy", remedy, "", "What would free the machine.", window});
+  const std::vector<Wait>& waits = deadlock.circle.empty() ? deadlock.waits : deadlock.circle;
+  for (std::size_t i = 0; i < waits.size(); ++i) {
+    const Wait& wait = waits[i];
+    MetricGroup& entry = group.group(fmt::format("wait_{}", i + 1));
+    entry.add({"waiter", wait.waiter, "", "Who cannot go on.", window});
+    entry.add({"stream", std::string(wait.stream->basename()), "", "The stream that it waits on.", window});
+    entry.add({"state", std::string(wait.on_full ? "full" : "empty"), "", "Of that stream.", window});
+    entry.add({"depth", std::int64_t{wait.stream->depth()}, "tokens", "Places of its FIFO.", window});
+    entry.add({"waits_for", wait.other, "", "Who would have to act: the waiter of the next entry.", window});
+  }
+}
+
+}  // namespace parallax

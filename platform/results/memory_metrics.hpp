@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "platform/results/limits.hpp"
+#include "traces/metrics.hpp"
+
+namespace parallax {
+
+/// The memory as a whole, and each of its ports: bytes, bandwidth, share, latency, stalls.
+void add_memory(MetricGroup& root, const Machine& machine, const SteadyWindow& window);
+
+}  // namespace parallax

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "platform/results/limits.hpp"
+#include "traces/metrics.hpp"
+
+namespace parallax {
+
+/// Stages, where their cycles went, and streams, how full they were. Of the whole run when the window holds
+/// no frame.
+void add_pipeline(MetricGroup& root, const Machine& machine, const SteadyWindow& window);
+
+}  // namespace parallax
