@@ -7,6 +7,7 @@
 #include <exception>
 #include <iostream>
 #include <new>
+#include <opencv2/core/utility.hpp>
 #include <string>
 #include <systemc>
 #include <vector>
@@ -17,6 +18,7 @@
 #include "platform/commands/map_command.hpp"
 #include "platform/commands/memory_command.hpp"
 #include "platform/commands/registers_command.hpp"
+#include "platform/commands/report_command.hpp"
 #include "platform/commands/run_command.hpp"
 #include "platform/commands/scene_command.hpp"
 #include "platform/commands/validate_command.hpp"
@@ -96,6 +98,9 @@ int run_command_line(int argc, const char* const* argv) {
 }
 
 int run_command_line(int argc, const char* const* argv, std::ostream& out, std::ostream& err) {
+  // Timing is evaluated in forks of this process, and a fork of one with threads may hang on their locks.
+  cv::setNumThreads(0);
+
   CLI::App app("A SystemC model of an FPGA that turns stereo image pairs into disparity maps.", "parallax");
   app.set_version_flag("--version", fmt::format("parallax {} ({})", version(), revision()),
                        "Print the version");
@@ -112,6 +117,7 @@ int run_command_line(int argc, const char* const* argv, std::ostream& out, std::
   add_scene_command(app, context);
   add_memory_command(app, context);
   add_registers_command(app, context);
+  add_report_command(app, context);
   add_compare_runs_command(app, context);
   add_validate_command(app, context);
 

@@ -27,6 +27,7 @@
 #include "platform/results/peak_memory.hpp"
 #include "platform/results/progress.hpp"
 #include "platform/results/relaxed_limits.hpp"
+#include "platform/results/report_file.hpp"
 #include "platform/results/result_names.hpp"
 #include "platform/results/run_metrics.hpp"
 #include "platform/standby_evaluator.hpp"
@@ -92,7 +93,7 @@ class Run {
       guarded(delivered_, [&] { return take(result), 0; });
     };
     // Before this process simulates.
-    if (options_.verdict)
+    if (options_.verdict || options_.report)
       standby_ = std::make_unique<StandbyEvaluator>(timing_input(), options_.configuration);
     const Machine machine("machine", configuration_.machine, input);
     if (folder_) profile_ = std::make_unique<RunProfile>(machine);
@@ -220,7 +221,8 @@ class Run {
     return input;
   }
 
-  // What limits, by taking limits away: first that of the busiest part; if it gains nothing, all the others.
+  // What limits, by taking limits away: first that of the busiest part; if it gains nothing, or all are to be
+  // reported, all the others.
   void judge(MetricGroup& metrics, const std::function<bool()>& interrupted) {
     if (!standby_ || std::get<double>(metrics.at("performance/frame_rate").value) == 0) return;
     const nlohmann::ordered_json base = to_json(metrics);
@@ -243,11 +245,12 @@ class Run {
       try_all({relaxation});
     }
     RelaxedLimits limits = relaxed_limits(base, tried, results);
-    if (limits.limit() == nullptr) {
+    if (limits.limit() == nullptr || options_.report) {
       try_all(left);
       limits = relaxed_limits(base, tried, results);
     }
     if (interrupted()) return;
+    if (options_.report) folder_->write("relaxations.json", to_json(limits).dump(2) + "\n");
     add_verdict(metrics, verdict(base, limits), limits);
   }
 
@@ -261,6 +264,9 @@ class Run {
     if (!folder_) return;
     if (profile_) folder_->write("profile.json", profile_->to_json().dump() + "\n");
     folder_->write("timing.json", tree.dump(2) + "\n");
+    folder_->publish();
+    if (!options_.report) return;
+    folder_->write("report.html", report_of(folder_->path()));
     folder_->publish();
   }
 

@@ -105,6 +105,11 @@ void add_run_command(CLI::App& app, CommandContext& context) {
       ->check(not_empty())
       ->type_name("DIR")
       ->group("Output");
+  command
+      .add_flag("--report", options->report,
+                "Write report.html too, one page with all of it, and try what taking away each limit gains. "
+                "Needs --out")
+      ->group("Output");
   command.add_flag("!--no-point-cloud", options->point_cloud, "Do not write points.ply")->group("Output");
   command
       .add_option(

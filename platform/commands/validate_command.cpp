@@ -25,7 +25,7 @@ constexpr int kOutside = 1;
 constexpr int kSignalled = 128;  // as shells report a program that a signal ended
 
 struct ValidateOptions {
-  std::vector<std::string> rows{"scenescan-pro", "other-designs"};
+  std::vector<std::string> rows = published_row_files();
   std::string preset;
   std::vector<std::string> assignments;
   std::filesystem::path out;

@@ -87,11 +87,23 @@ void check_trace(const RunOptions& options) {
   }
 }
 
+void check_report(const RunOptions& options) {
+  if (!options.report) return;
+  if (options.out.empty()) throw UserError("--report needs --out: the folder that report.html is written to");
+  if (options.relax || !options.vary.empty()) {
+    throw UserError(
+        fmt::format("--report is of one run: it cannot go with {}", options.relax ? "--relax" : "--vary"));
+  }
+  if (!options.verdict)
+    throw UserError("--report and --no-verdict exclude each other: it says what each limit costs");
+}
+
 }  // namespace
 
 void check_options(const RunOptions& options) {
   check_timing_only(options);
   check_trace(options);
+  check_report(options);
   if (options.left.empty() != options.right.empty()) {
     throw UserError(fmt::format("{} is missing: a pair needs --left and --right",
                                 options.left.empty() ? "--left" : "--right"));

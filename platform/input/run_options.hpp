@@ -38,6 +38,7 @@ struct RunOptions {
   bool relax = false;             ///< timing-only runs with one limit at a time taken away
   std::filesystem::path out;
   TraceOptions trace;  ///< goes into `out`
+  bool report = false;  ///< a page of HTML in `out`, with what taking away each limit gains
   bool point_cloud = true;
   bool json = false;
 };

@@ -66,6 +66,8 @@ void add_stream(MetricGroup& group, const StreamBase& stream) {
   const auto percent = [cycles](std::uint64_t part) { return 100.0 * static_cast<double>(part) / cycles; };
   group.add({"depth", std::int64_t{stream.depth()}, "tokens", "Places of the FIFO.", ""});
   group.add({"width", stream.width().count(), "bit", "Of a token.", ""});
+  group.add({"writer", stream.writer_name(), "", "The module that writes it.", ""});
+  group.add({"reader", stream.reader_name(), "", "The module that reads it.", ""});
   group.add({"kind", std::string(name_of(stream.config().kind)), "",
              "Which circuit the FIFO is: it fixes by how many cycles tokens and places are delayed.", ""});
   group.add({"tokens", static_cast<std::int64_t>(s.written), "tokens", "Written.", all});

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <iterator>
 #include <system_error>
+#include <vector>
 
 #include "platform/version.hpp"
 #include "tlm/error.hpp"
@@ -52,11 +53,26 @@ RunReport read_run_report(const std::string& path) {
     throw UserError(
         fmt::format("{}: written by version {}, this is {}; run it again", report.path, by, version()));
   }
-  for (const char* group : {"performance", "stages", "memory"}) {
+  // A stuck machine reached no frame rate.
+  const bool stuck = tree.contains("deadlock");
+  const std::vector<const char*> groups =
+      stuck ? std::vector<const char*>{"input", "deadlock", "stages", "streams", "configuration"}
+            : std::vector<const char*>{"input",  "performance", "latency", "memory",
+                                       "stages", "streams",     "energy",  "configuration"};
+  for (const char* group : groups) {
     if (tree.contains(group) && tree.at(group).is_object()) continue;
     throw UserError(fmt::format("{}: damaged, it has no {}; run parallax again", report.path, group));
   }
   return report;
+}
+
+nlohmann::ordered_json read_result_json(const std::string& path) {
+  std::error_code error;
+  if (!fs::exists(path, error)) return nullptr;
+  auto tree = nlohmann::ordered_json::parse(read(path), nullptr, false);
+  if (tree.is_discarded() || !tree.is_object())
+    throw UserError(fmt::format("{}: damaged, this is no JSON; run parallax again", path));
+  return tree;
 }
 
 }  // namespace parallax

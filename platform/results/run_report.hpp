@@ -16,4 +16,8 @@ struct RunReport {
 /// and when another version wrote it.
 RunReport read_run_report(const std::string& path);
 
+/// Another JSON file of results, such as profile.json; null where there is none. Throws UserError when it is
+/// damaged.
+nlohmann::ordered_json read_result_json(const std::string& path);
+
 }  // namespace parallax

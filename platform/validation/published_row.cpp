@@ -119,6 +119,8 @@ class RowReader {
 
 }  // namespace
 
+std::vector<std::string> published_row_files() { return {"scenescan-pro", "other-designs"}; }
+
 PublishedRows read_published_rows(const std::string& name,
                                   const std::vector<std::filesystem::path>& preset_folders) {
   std::vector<std::filesystem::path> folders;

@@ -32,6 +32,9 @@ struct PublishedRows {
   std::vector<PublishedRow> rows;
 };
 
+/// Names of the files of rows that come with the program.
+std::vector<std::string> published_row_files();
+
 /// Reads a file of rows, by name from `validation/<name>.toml` in the preset folders, or by path. Throws
 /// UserError with file and line.
 PublishedRows read_published_rows(const std::string& name,

@@ -55,7 +55,29 @@ TimingResult run(const PublishedRow& row, const ConfigurationRequest& request,
   return TimingEvaluator(input, interrupted).evaluate(config);
 }
 
-double metric(const PublishedRow& row, const nlohmann::ordered_json& metrics) {
+ValidatedRow compare(const PublishedRow& row, const TimingResult& result) {
+  using Status = TimingResult::Status;
+  ValidatedRow validated;
+  validated.row = row;
+  if (row.refused) {
+    validated.within = result.status == Status::kInvalid;
+    validated.limit = validated.within ? "refused" : "not refused";
+    return validated;
+  }
+  if (result.status != Status::kDone) {
+    validated.limit = fmt::format("{}: {}", name(result.status), result.advice());
+    return validated;
+  }
+  validated.predicted = predicted(row, result.metrics);
+  validated.deviation = 100 * (validated.predicted / row.published - 1);
+  validated.within = validated.deviation >= row.least && validated.deviation <= row.most;
+  validated.limit = result.metrics.at("limit").at("part").at("value");
+  return validated;
+}
+
+}  // namespace
+
+double predicted(const PublishedRow& row, const nlohmann::ordered_json& metrics) {
   const auto check_unit = [&row](const std::string& unit) {
     if (row.unit == unit || (unit.empty() && row.unit == "-")) return;
     throw UserError(fmt::format("{}: {}: unit is '{}', but {} is in {}", row.origin, row.name, row.unit,
@@ -74,28 +96,6 @@ double metric(const PublishedRow& row, const nlohmann::ordered_json& metrics) {
   check_unit(metrics.at(nlohmann::ordered_json::json_pointer("/" + row.metric + "/unit")).get<std::string>());
   return metrics.at(path).get<double>();
 }
-
-ValidatedRow compare(const PublishedRow& row, const TimingResult& result) {
-  using Status = TimingResult::Status;
-  ValidatedRow validated;
-  validated.row = row;
-  if (row.refused) {
-    validated.within = result.status == Status::kInvalid;
-    validated.limit = validated.within ? "refused" : "not refused";
-    return validated;
-  }
-  if (result.status != Status::kDone) {
-    validated.limit = fmt::format("{}: {}", name(result.status), result.advice());
-    return validated;
-  }
-  validated.predicted = metric(row, result.metrics);
-  validated.deviation = 100 * (validated.predicted / row.published - 1);
-  validated.within = validated.deviation >= row.least && validated.deviation <= row.most;
-  validated.limit = result.metrics.at("limit").at("part").at("value");
-  return validated;
-}
-
-}  // namespace
 
 std::vector<ValidatedRow> validate_rows(const std::vector<PublishedRow>& rows,
                                         const std::function<void()>& done,

@@ -26,6 +26,10 @@ std::vector<ValidatedRow> validate_rows(const std::vector<PublishedRow>& rows,
                                         const std::function<void()>& done,
                                         const std::function<bool()>& interrupted);
 
+/// What `metrics` (timing.json) say of the row's figure, in its unit. Throws UserError, naming the row, when
+/// they do not have it or have it in another unit.
+double predicted(const PublishedRow& row, const nlohmann::ordered_json& metrics);
+
 bool all_within(const std::vector<ValidatedRow>& rows);
 std::string table(const std::vector<ValidatedRow>& rows);
 nlohmann::ordered_json to_json(const std::vector<ValidatedRow>& rows);

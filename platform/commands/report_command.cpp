@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "platform/commands/report_command.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+#include <ostream>
+#include <string>
+
+#include "platform/commands/command_context.hpp"
+#include "platform/results/output_folder.hpp"
+#include "platform/results/report_file.hpp"
+
+namespace parallax {
+
+void add_report_command(CLI::App& app, CommandContext& context) {
+  const auto folder = std::make_shared<std::string>();
+  CLI::App& command =
+      *app.add_subcommand("report", "One page of HTML, report.html, from the folder of a run's results");
+  command.add_option("DIR", *folder, "Folder of a run's results")->required();
+  command.callback([folder, &context] {
+    context.action = [folder, &context] {
+      const std::string page = report_of(*folder);
+      OutputFolder out(*folder);
+      out.write("report.html", page);
+      out.publish();
+      if (context.verbosity != Verbosity::kQuiet)
+        context.out << fmt::format("report              {}\n",
+                                   (std::filesystem::path(*folder) / "report.html").string());
+      return 0;
+    };
+  });
+}
+
+}  // namespace parallax

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "platform/results/report_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+#include <vector>
+
+#include "platform/config/preset.hpp"
+#include "platform/results/result_images.hpp"
+#include "platform/results/run_report.hpp"
+#include "platform/validation/published_row.hpp"
+#include "platform/validation/validation.hpp"
+#include "traces/report/report_page.hpp"
+
+namespace parallax {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr int kWidestImage = 960;  // px; a page of full-size images of the largest format would be 20 MB
+
+struct PageImage {
+  const char* file;
+  const char* title;
+  const char* caption;
+};
+constexpr PageImage kImages[] = {
+    {"left_rectified.png", "Left image", "rectified"},
+    {"disparity_color.png", "Disparity", "blue is far, red is near"},
+    {"causes.png", "Who invalidated what", "the stage that took a pixel's disparity away"},
+    {"error.png", "Error against the ground truth", ""},
+};
+
+std::vector<ReportImage> images_of(const fs::path& folder) {
+  std::error_code error;
+  std::string frame;
+  if (fs::exists(folder / "frame_0000", error)) frame = "frame_0000";
+  std::vector<ReportImage> images;
+  for (const PageImage& wanted : kImages) {
+    const fs::path path = folder / frame / wanted.file;
+    cv::Mat image = fs::exists(path, error) ? cv::imread(path.string(), cv::IMREAD_UNCHANGED) : cv::Mat();
+    if (image.empty()) continue;
+    const double scale = std::min(1.0, static_cast<double>(kWidestImage) / image.cols);
+    if (scale < 1) cv::resize(image, image, {}, scale, scale, cv::INTER_AREA);
+    images.push_back({wanted.title, fmt::format("{}{}", wanted.caption, frame.empty() ? "" : ", first frame"),
+                      "image/png", encode_png(image)});
+  }
+  return images;
+}
+
+// Whether the run is of the row's machine: preset, size, and what the row sets.
+bool is_of(const PublishedRow& row, const Json& timing) {
+  const auto input = [&](const char* name) { return timing.at("input").at(name).at("value").get<int>(); };
+  if (row.width != input("width") || row.height != input("height")) return false;
+  return std::all_of(row.assignments.begin(), row.assignments.end(), [&](const std::string& assignment) {
+    const std::size_t equals = assignment.find('=');
+    std::string path = "/" + assignment.substr(0, equals);
+    std::replace(path.begin(), path.end(), '.', '/');
+    const Json::json_pointer pointer(path);
+    if (!timing.at("configuration").contains(pointer)) return false;
+    const Json& value = timing.at("configuration").at(pointer);
+    return (value.is_string() ? value.get<std::string>() : value.dump()) == assignment.substr(equals + 1);
+  });
+}
+
+std::vector<BudgetLine> budget_of(const Json& timing) {
+  std::vector<BudgetLine> budget;
+  const std::string preset = timing.at("configuration").value("preset", "");
+  for (const std::string& name : published_row_files()) {
+    const PublishedRows file = read_published_rows(name, preset_folders());
+    for (const PublishedRow& row : file.rows) {
+      if ((row.preset.empty() ? file.preset : row.preset) != preset || row.refused) continue;
+      BudgetLine line{row.name, row.source, row.metric, row.unit, row.published, {}};
+      const std::size_t slash = line.metric.rfind('/');
+      if (slash != std::string::npos) line.metric.erase(0, slash + 1);
+      if (timing.contains("performance") && is_of(row, timing)) line.reached = predicted(row, timing);
+      budget.push_back(std::move(line));
+    }
+  }
+  return budget;
+}
+
+}  // namespace
+
+std::string report_of(const fs::path& folder) {
+  ReportInput input;
+  input.timing = read_run_report(folder.string()).tree;
+  input.profile = read_result_json((folder / "profile.json").string());
+  input.relaxations = read_result_json((folder / "relaxations.json").string());
+  input.images = images_of(folder);
+  input.budget = budget_of(input.timing);
+  return report_page(input);
+}
+
+}  // namespace parallax

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: Apache-2.0
+// The machine around the pipeline: memory, latency, what limits, energy.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "traces/report/html.hpp"
+#include "traces/report/metric_text.hpp"
+#include "traces/report/sections.hpp"
+
+namespace parallax {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string select_box(const char* id, const char* label, const std::string& options) {
+  return fmt::format("<p class=\"script-only\"><label>{} <select id=\"{}\">{}</select></label></p>\n", label,
+                     id, options);
+}
+
+std::string percentile_cell(const Json& tree, const std::string& path) {
+  const Json* const metric = find_metric(tree, path);
+  return metric == nullptr ? "" : number_text((*metric)["value"].get<double>(), 3);
+}
+
+}  // namespace
+
+std::string memory_section(const ReportInput& input) {
+  const Json& tree = input.timing;
+  if (!tree.contains("memory")) return "";
+  std::string summary;
+  Table table("What passed each port of the memory",
+              {"port", "B a frame", "MB/s", "share of the bus", "latency, ns: mean", "p50", "p95", "p99",
+               "largest", "stalls caused"});
+  for (const auto& [name, entry] : tree["memory"].items()) {
+    if (is_metric(entry)) {
+      summary += fmt::format("{}{} {}", summary.empty() ? "" : "; ",
+                             term(words(name), entry.value("description", "")), escaped(metric_text(entry)));
+      continue;
+    }
+    std::vector<std::string> cells = {escaped(words(name)),
+                                      number_text(metric_number(entry, "bytes_per_frame"), 0),
+                                      number_text(metric_number(entry, "bandwidth"), 1),
+                                      fmt::format("{:.2f} %", metric_number(entry, "share"))};
+    for (const char* latency : {"mean", "p50", "p95", "p99", "largest"})
+      cells.push_back(number_text(metric_number(entry, fmt::format("latency_{}", latency)), 0));
+    const Json* const stalls = find_metric(entry, "stalls");
+    cells.push_back(stalls == nullptr ? "" : escaped(metric_text(*stalls)));
+    table.row(cells);
+  }
+  std::string html = fmt::format("<p>{}</p>\n{}", summary, table.html());
+  const Json frame = input.profile.is_object() ? input.profile.value("frame", Json()) : Json();
+  if (!frame.is_object()) return html;
+  html += "<h3>Bandwidth by port over a frame's period</h3>\n" +
+          canvas("chart-memory", "Bandwidth of each port over a frame's period");
+  Table totals("Over this period, each port's bandwidth in bins of " +
+                   number_text(frame["bin"].get<double>() / 1e6, 1) + " us",
+               {"port", "mean, MB/s", "largest bin, MB/s"});
+  for (const auto& [port, bins] : frame["bandwidth"].items()) {
+    double sum = 0, most = 0;
+    for (const Json& bin : bins) {
+      sum += bin.get<double>();
+      most = std::max(most, bin.get<double>());
+    }
+    totals.row(
+        {escaped(words(port)), number_text(sum / static_cast<double>(bins.size()), 1), number_text(most, 1)});
+  }
+  html += totals.html();
+  if (!frame["rows"].contains("map")) return html;
+  const Json& map = frame["rows"]["map"];
+  html += "<h3>The rectification map row by row</h3>\n" +
+          canvas("chart-map", "Bytes and latency of each row of the rectification map");
+  Table rows("", {"row", "bytes", "latency of its bursts, ns: mean", "longest"});
+  for (std::size_t i = 0; i < map["bytes"].size(); ++i)
+    rows.row({std::to_string(i), number_text(map["bytes"][i].get<double>(), 0),
+              number_text(map["latency_mean"][i].get<double>() / 1e3, 1),
+              number_text(map["latency_longest"][i].get<double>() / 1e3, 1)});
+  return html + "<details><summary>As a table</summary>\n" + rows.html() + "</details>\n";
+}
+
+std::string latency_section(const ReportInput& input) {
+  const Json& tree = input.timing;
+  if (!tree.contains("latency")) return "";
+  Table table("Of a frame, ms", {"span", "first frame", "mean", "p50", "p95", "p99", "largest"});
+  const std::string suffix = "_first_frame";
+  std::string options;
+  const auto option = [&](const std::string& name, const char* unit) {
+    options += fmt::format("<option value=\"{}\" data-unit=\"{}\"{}>{}</option>", name, unit,
+                           name == "exposure_to_host" ? " selected" : "", escaped(words(name)));
+  };
+  const Json counts = input.profile.is_object() ? input.profile.value("latency", Json()) : Json();
+  for (const auto& metric : tree["latency"].items()) {
+    const std::string& key = metric.key();
+    if (key.size() <= suffix.size() || key.substr(key.size() - suffix.size()) != suffix) continue;
+    const std::string span = key.substr(0, key.size() - suffix.size());
+    std::vector<std::string> cells = {metric_term(tree, "latency/" + key, words(span))};
+    for (const char* what : {"first_frame", "mean", "p50", "p95", "p99", "largest"})
+      cells.push_back(percentile_cell(tree, fmt::format("latency/{}_{}", span, what)));
+    table.row(cells);
+    if (counts.contains(span) && !counts[span]["count"].empty()) option(span, "ms");
+  }
+  if (counts.is_object()) {
+    for (const auto& port : counts.items()) {
+      if (tree["memory"].contains(port.key()) && !port.value()["count"].empty()) option(port.key(), "ns");
+    }
+  }
+  if (options.empty()) return table.html();
+  return select_box("span", "Distribution of", options) +
+         canvas("chart-latency", "Distribution of a latency") + table.html();
+}
+
+std::string limits_section(const ReportInput& input) {
+  if (!input.relaxations.is_object()) return "";
+  Table table(
+      "One limit taken away at a time, and the machine run again",
+      {"limit taken away", "frames/s", "gain", "exposure to host, ms", "limits then", "meaning", "settings"},
+      "words");
+  const Json& base = input.relaxations["base"];
+  table.row({"none", number_text(metric_number(base, "frame_rate"), 2), "",
+             number_text(metric_number(base, "latency"), 3), "", "the machine as it is", ""});
+  const std::string limit = input.relaxations.value("limit", "");
+  for (const Json& entry : input.relaxations["relaxations"]) {
+    const std::string name = entry.value("name", "");
+    std::string settings;
+    for (const Json& setting : entry["set"])
+      settings += (settings.empty() ? "" : " ") + setting.get<std::string>();
+    if (!entry.contains("gain")) {
+      table.row({escaped(words(name)), "", "", "", "", escaped(entry.value("message", "")), ""});
+      continue;
+    }
+    table.row(
+        {escaped(words(name)), number_text(metric_number(entry, "frame_rate"), 2),
+         fmt::format("{:+.2f} %", metric_number(entry, "gain")),
+         number_text(metric_number(entry, "latency"), 3), escaped(words(entry.value("next_part", ""))),
+         escaped(entry.value("meaning", "")),
+         settings.size() < 80 ? escaped(settings)
+                              : "<details><summary>all streams</summary>" + escaped(settings) + "</details>"},
+        name == limit ? "class=\"limits\"" : "");
+  }
+  return canvas("chart-limits", "Gain of the frame rate for each limit taken away") + table.html();
+}
+
+std::string energy_section(const ReportInput& input) {
+  const Json& tree = input.timing;
+  if (!tree.contains("energy")) return "";
+  Table table("An estimate: what the parts did, times what a unit of it costs (keys energy.* of the preset)",
+              {"part", "W", "mJ a frame", "what it holds"}, "words");
+  const std::string prefix = "power_";
+  for (const auto& [name, metric] : tree["energy"].items()) {
+    if (name.rfind(prefix, 0) != 0) continue;
+    const std::string part = name.substr(prefix.size());
+    table.row({escaped(words(part)), number_text(metric["value"].get<double>(), 3),
+               number_text(metric_number(tree, "energy/frame_" + part), 3),
+               escaped(metric.value("description", ""))});
+  }
+  return canvas("chart-energy", "Estimated power of each part") + table.html();
+}
+
+namespace {
+
+void add_numbers(Table& table, const Json& group, const std::string& path) {
+  for (const auto& [name, entry] : group.items()) {
+    const std::string here = path.empty() ? name : path + "/" + name;
+    if (here == "configuration") continue;
+    if (is_metric(entry)) {
+      const bool list = entry["value"].is_array();
+      table.row({escaped(here), escaped(list ? entry["value"].dump() : metric_text(entry)),
+                 escaped(entry.value("description", "")), escaped(entry.value("window", ""))});
+    } else if (entry.is_object()) {
+      add_numbers(table, entry, here);
+    }
+  }
+}
+
+void add_keys(std::string& text, const Json& group, const std::string& path) {
+  for (const auto& [name, entry] : group.items()) {
+    const std::string here = path.empty() ? name : path + "." + name;
+    if (entry.is_object()) {
+      add_keys(text, entry, here);
+    } else {
+      text += fmt::format("{} = {}\n", here, entry.dump());
+    }
+  }
+}
+
+}  // namespace
+
+std::string numbers_section(const ReportInput& input) {
+  Table table("", {"number", "value", "meaning", "over"}, "words");
+  add_numbers(table, input.timing, "");
+  return "<details><summary>Every number of timing.json, with its meaning</summary>\n" + table.html() +
+         "</details>\n";
+}
+
+std::string configuration_section(const ReportInput& input) {
+  std::string keys;
+  add_keys(keys, input.timing.at("configuration"), "");
+  return fmt::format(
+      "<p>This command makes the run again: "
+      "<button class=\"copy script-only\" type=\"button\" data-of=\"command\">copy</button></p>\n"
+      "<pre class=\"command\" id=\"command\">{}</pre>\n"
+      "<details><summary>Every key of the configuration</summary>\n<pre "
+      "class=\"command\">{}</pre></details>\n",
+      escaped(metric_word(input.timing, "run/command")), escaped(keys));
+}
+
+}  // namespace parallax

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "traces/report/report_page.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <string_view>
+
+#include "traces/report/assets.hpp"
+#include "traces/report/html.hpp"
+#include "traces/report/metric_text.hpp"
+#include "traces/report/sections.hpp"
+
+namespace parallax {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Part {
+  std::string_view id;
+  std::string_view title;
+  std::string (*make)(const ReportInput&);
+};
+
+constexpr std::array<Part, 12> kParts = {{{"images", "Images", images_section},
+                                          {"pipeline", "Pipeline", pipeline_section},
+                                          {"stages", "Stages", stages_section},
+                                          {"fifos", "FIFOs", fifos_section},
+                                          {"memory", "Memory", memory_section},
+                                          {"latency", "Latency", latency_section},
+                                          {"limits", "Limits", limits_section},
+                                          {"budget", "Published figures", budget_section},
+                                          {"energy", "Energy", energy_section},
+                                          {"storage", "On-chip memory", storage_section},
+                                          {"numbers", "All numbers", numbers_section},
+                                          {"configuration", "Configuration", configuration_section}}};
+
+// A script element ends at the first "</script", whatever quotes it stands in.
+std::string script_safe(std::string text) {
+  for (std::size_t at = text.find("</"); at != std::string::npos; at = text.find("</", at + 3))
+    text.insert(at + 1, "\\");
+  return text;
+}
+
+}  // namespace
+
+std::string html_page(const std::string& title, const std::string& body, const Json& data) {
+  return fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+      "<link rel=\"icon\" href=\"data:,\">\n<title>{}</title>\n<style>\n{}</style>\n</head>\n<body>\n{}"
+      "<script type=\"application/json\" "
+      "id=\"data\">{}</script>\n<script>{}</script>\n<script>\n{}</script>\n"
+      "</body>\n</html>\n",
+      escaped(title), kReportStyle, body, script_safe(data.dump()), kChartLibrary, kReportScript);
+}
+
+std::string report_page(const ReportInput& input) {
+  const Json& tree = input.timing;
+  std::string navigation, sections;
+  for (const Part& part : kParts) {
+    const std::string html = part.make(input);
+    if (html.empty()) continue;
+    navigation += fmt::format("<a href=\"#{}\">{}</a>\n", part.id, part.title);
+    sections += section(part.id, part.title, html);
+  }
+  Json data;
+  for (const char* group : {"stages", "streams", "energy"}) {
+    if (tree.contains(group)) data[group] = tree[group];
+  }
+  if (!input.profile.is_null()) data["profile"] = input.profile;
+  if (!input.relaxations.is_null()) data["relaxations"] = input.relaxations;
+  const std::string body = fmt::format(
+      "<a class=\"skip\" href=\"#top\">To the content</a>\n"
+      "<nav aria-label=\"Parts of the report\">\n{}"
+      "<button class=\"theme script-only\" type=\"button\">dark or light</button></nav>\n"
+      "<main id=\"top\">\n{}{}</main>\n"
+      "<footer>Written by Parallax {} ({}). A number's meaning shows when the pointer rests on it, and in "
+      "the "
+      "table of all numbers. Charts: Chart.js, MIT licence.</footer>\n",
+      navigation, overview(input), sections, escaped(metric_word(tree, "run/version")),
+      escaped(metric_word(tree, "run/revision")));
+  return html_page(
+      fmt::format("Parallax: {:.0f} x {:.0f}, {}", metric_number(tree, "input/width"),
+                  metric_number(tree, "input/height"), tree.at("configuration").value("preset", "")),
+      body, data);
+}
+
+}  // namespace parallax
