@@ -8,6 +8,8 @@
 
 #include "platform/commands/command_context.hpp"
 #include "platform/commands/common_options.hpp"
+#include "platform/results/comparison_page.hpp"
+#include "platform/results/output_file.hpp"
 #include "platform/results/run_comparison.hpp"
 
 namespace parallax {
@@ -18,6 +20,7 @@ struct CompareOptions {
   std::string b;
   bool all = false;
   bool json = false;
+  std::string html;
 };
 
 }  // namespace
@@ -30,9 +33,13 @@ void add_compare_runs_command(CLI::App& app, CommandContext& context) {
   command.add_option("B", options->b, "Likewise, of the other run")->required();
   command.add_flag("--all", options->all, "Every number that changed");
   add_json_option(command, options->json);
+  command.add_option("--html", options->html, "Write the comparison to this file, a page of HTML")
+      ->type_name("FILE");
   command.callback([options, &context] {
     context.action = [options, &context] {
-      const RunComparison comparison = compare(read_run_report(options->a), read_run_report(options->b));
+      const RunReport a = read_run_report(options->a), b = read_run_report(options->b);
+      const RunComparison comparison = compare(a, b);
+      if (!options->html.empty()) write_file(options->html, comparison_page(comparison, a, b));
       if (options->json) {
         context.out << to_json(comparison).dump(2) << '\n';
       } else if (context.verbosity != Verbosity::kQuiet) {

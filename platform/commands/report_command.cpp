@@ -8,10 +8,12 @@
 #include <memory>
 #include <ostream>
 #include <string>
+#include <system_error>
 
 #include "platform/commands/command_context.hpp"
 #include "platform/results/output_folder.hpp"
 #include "platform/results/report_file.hpp"
+#include "tlm/error.hpp"
 
 namespace parallax {
 
@@ -22,6 +24,9 @@ void add_report_command(CLI::App& app, CommandContext& context) {
   command.add_option("DIR", *folder, "Folder of a run's results")->required();
   command.callback([folder, &context] {
     context.action = [folder, &context] {
+      std::error_code error;
+      if (std::filesystem::is_regular_file(*folder, error))
+        throw UserError(fmt::format("{} is a file, a report is made of a run's folder", *folder));
       const std::string page = report_of(*folder);
       OutputFolder out(*folder);
       out.write("report.html", page);

@@ -233,7 +233,9 @@ class Run {
     const auto try_all = [&](const std::vector<Relaxation>& wanted) {
       std::vector<std::vector<std::string>> variants;
       for (const Relaxation& relaxation : wanted) variants.push_back(relaxation.assignments);
-      for (TimingResult& result : standby_->evaluate(variants, interrupted, [] {}))
+      Progress progress(context_.err, context_.verbosity != Verbosity::kQuiet && standard_error_is_terminal(),
+                        "limits", static_cast<std::int64_t>(variants.size()));
+      for (TimingResult& result : standby_->evaluate(variants, interrupted, [&] { progress.advance(); }))
         results.push_back(std::move(result));
       tried.insert(tried.end(), wanted.begin(), wanted.end());
     };

@@ -93,6 +93,25 @@ void add_stream(MetricGroup& group, const StreamBase& stream) {
        all});
 }
 
+// Where data lies in memory between two engines: the machine's way past its streams.
+void add_buffers(MetricGroup& root, const Machine& machine) {
+  const auto engine = [&](const char* name) -> std::string {
+    for (const Machine::Port& port : machine.ports()) {
+      if (port.name == name) return port.master->get_parent_object()->name();
+    }
+    return "";
+  };
+  const auto add = [&](const char* name, const char* writer, const char* reader, std::uint32_t number) {
+    MetricGroup& group = root.group("buffers").group(name);
+    group.add({"writer", engine(writer), "", "The module that fills them.", ""});
+    group.add({"reader", engine(reader), "", "The module that empties them.", ""});
+    group.add({"number", std::int64_t{number}, "buffers", "In memory, each of one image.", ""});
+  };
+  add("left", "camera_left", "left", machine.config().camera.frame_buffers);
+  add("right", "camera_right", "right", machine.config().camera.frame_buffers);
+  if (machine.config().link.enabled) add("output", "output", "link", machine.config().link.output_buffers);
+}
+
 }  // namespace
 
 void add_pipeline(MetricGroup& root, const Machine& machine, const SteadyWindow& window) {
@@ -114,6 +133,7 @@ void add_pipeline(MetricGroup& root, const Machine& machine, const SteadyWindow&
   for (const StreamBase* stream : machine.dataflow().streams()) {
     add_stream(streams.group(stream->basename()), *stream);
   }
+  add_buffers(root, machine);
 }
 
 }  // namespace parallax

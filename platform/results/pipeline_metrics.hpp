@@ -6,8 +6,8 @@
 
 namespace parallax {
 
-/// Stages, where their cycles went, and streams, how full they were. Of the whole run when the window holds
-/// no frame.
+/// Stages, where their cycles went, and streams, how full they were; and the buffers in memory. Of the whole
+/// run when the window holds no frame.
 void add_pipeline(MetricGroup& root, const Machine& machine, const SteadyWindow& window);
 
 }  // namespace parallax

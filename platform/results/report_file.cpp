@@ -13,6 +13,7 @@
 #include "platform/results/run_report.hpp"
 #include "platform/validation/published_row.hpp"
 #include "platform/validation/validation.hpp"
+#include "tlm/error.hpp"
 #include "traces/report/report_page.hpp"
 
 namespace parallax {
@@ -87,13 +88,22 @@ std::vector<BudgetLine> budget_of(const Json& timing) {
 }  // namespace
 
 std::string report_of(const fs::path& folder) {
+  const RunReport report = read_run_report(folder.string());
   ReportInput input;
-  input.timing = read_run_report(folder.string()).tree;
+  input.timing = report.tree;
   input.profile = read_result_json((folder / "profile.json").string());
   input.relaxations = read_result_json((folder / "relaxations.json").string());
-  input.images = images_of(folder);
-  input.budget = budget_of(input.timing);
-  return report_page(input);
+  try {
+    input.images = images_of(folder);
+    input.budget = budget_of(input.timing);
+    return report_page(input);
+  } catch (const Json::exception&) {
+    // Each number that is missing or of another kind; which of the three files has it is not worth a check of
+    // its own.
+    throw UserError(
+        fmt::format("{}: its timing.json, profile.json or relaxations.json is damaged; run parallax again",
+                    folder.string()));
+  }
 }
 
 }  // namespace parallax

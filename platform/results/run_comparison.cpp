@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <utility>
@@ -69,14 +70,6 @@ Json without(Json tree, std::initializer_list<const char*> groups) {
   return tree;
 }
 
-// In percent; none where a share changes, or from or to nothing.
-std::optional<double> change(const Difference& d) {
-  if (!d.a.is_number() || !d.b.is_number() || d.unit == "%") return std::nullopt;
-  const auto a = d.a.get<double>();
-  if (a == 0) return std::nullopt;
-  return 100 * (d.b.get<double>() / a - 1);
-}
-
 std::string text_of(const Json& value, const std::string& unit) {
   if (value.is_null()) return "-";
   if (value.is_number_float())
@@ -88,9 +81,9 @@ std::string text_of(const Json& value, const std::string& unit) {
 }
 
 std::string line(const Difference& d) {
-  const std::optional<double> percent = change(d);
-  return fmt::format("  {:<44} {:>22} {:>22}{}\n", d.name, text_of(d.a, d.unit), text_of(d.b, d.unit),
-                     percent ? fmt::format(" {:>+8.1f} %", *percent) : "");
+  const std::string change = d.change_text();
+  return fmt::format("  {:<44} {:>22} {:>22}{}\n", d.name, d.text_a(), d.text_b(),
+                     change.empty() ? "" : fmt::format(" {:>10}", change));
 }
 
 // What a person asks first.
@@ -126,24 +119,15 @@ bool is_of_port(const std::string& name) {
 // By a point, or by a percent.
 bool is_noticeable(const Difference& d) {
   if (!d.a.is_number() || !d.b.is_number()) return true;
-  const std::optional<double> percent = change(d);
+  const std::optional<double> percent = d.change();
   return std::abs(percent.value_or(d.b.get<double>() - d.a.get<double>())) >= 1;
-}
-
-template <class Wanted>
-std::string section(const std::string& title, const std::vector<Difference>& all, Wanted wanted) {
-  std::string text;
-  for (const Difference& d : all) {
-    if (wanted(d)) text += line(d);
-  }
-  return text.empty() ? "" : title + "\n" + text;
 }
 
 Json to_json(const std::vector<Difference>& all) {
   auto list = Json::array();
   for (const Difference& d : all) {
     Json entry{{"name", d.name}, {"a", d.a}, {"b", d.b}, {"unit", d.unit}};
-    if (const auto percent = change(d)) entry["change_percent"] = *percent;
+    if (const auto percent = d.change()) entry["change_percent"] = *percent;
     list.push_back(std::move(entry));
   }
   return list;
@@ -171,22 +155,48 @@ nlohmann::ordered_json to_json(const RunComparison& comparison) {
           {"results", to_json(comparison.results)}};
 }
 
+std::vector<ComparisonSection> sections(const RunComparison& comparison) {
+  const auto chosen = [&](const char* title, const auto& wanted) {
+    ComparisonSection section{title, {}};
+    std::copy_if(comparison.results.begin(), comparison.results.end(),
+                 std::back_inserter(section.differences), wanted);
+    return section;
+  };
+  return {{"configuration", comparison.configuration},
+          chosen("results", [](const Difference& d) { return is_headline(d.name); }),
+          chosen("stages, by a point or more",
+                 [](const Difference& d) { return is_of_stage(d.name) && is_noticeable(d); }),
+          chosen("memory ports, by a percent or more",
+                 [](const Difference& d) { return is_of_port(d.name) && is_noticeable(d); })};
+}
+
 std::string to_text(const RunComparison& comparison, bool all) {
-  const auto everything = [](const Difference&) { return true; };
-  const auto headline = [](const Difference& d) { return is_headline(d.name); };
-  const auto of_stage = [](const Difference& d) { return is_of_stage(d.name) && is_noticeable(d); };
-  const auto of_port = [](const Difference& d) { return is_of_port(d.name) && is_noticeable(d); };
+  if (comparison.configuration.empty() && comparison.results.empty()) return "no difference\n";
   std::string text = fmt::format("  {:<44} {:>22} {:>22}\n", "", "A", "B");
-  text += section("configuration", comparison.configuration, everything);
+  const auto add = [&](const ComparisonSection& section) {
+    if (!section.differences.empty()) text += section.title + "\n";
+    for (const Difference& d : section.differences) text += line(d);
+  };
   if (all) {
-    text += section("results", comparison.results, everything);
+    add({"configuration", comparison.configuration});
+    add({"results", comparison.results});
   } else {
-    text += section("results", comparison.results, headline);
-    text += section("stages, by a point or more", comparison.results, of_stage);
-    text += section("memory ports, by a percent or more", comparison.results, of_port);
+    for (const ComparisonSection& section : sections(comparison)) add(section);
   }
-  if (comparison.configuration.empty() && comparison.results.empty()) text = "no difference\n";
   return text;
 }
+
+std::optional<double> RunComparison::Difference::change() const {
+  if (!a.is_number() || !b.is_number() || unit == "%" || a.get<double>() == 0) return std::nullopt;
+  return 100 * (b.get<double>() / a.get<double>() - 1);
+}
+
+std::string RunComparison::Difference::change_text() const {
+  const std::optional<double> percent = change();
+  return percent ? fmt::format("{:+.1f} %", *percent) : "";
+}
+
+std::string RunComparison::Difference::text_a() const { return text_of(a, unit); }
+std::string RunComparison::Difference::text_b() const { return text_of(b, unit); }
 
 }  // namespace parallax

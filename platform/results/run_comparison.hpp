@@ -2,6 +2,7 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,11 +17,23 @@ struct RunComparison {
     nlohmann::ordered_json a;  ///< null: not in that run
     nlohmann::ordered_json b;
     std::string unit;
+
+    /// In percent; none where a share changes, or from or to nothing.
+    std::optional<double> change() const;
+    // For a person.
+    std::string change_text() const;  ///< empty: none
+    std::string text_a() const;
+    std::string text_b() const;
   };
   std::string path_a;
   std::string path_b;
   std::vector<Difference> configuration;
   std::vector<Difference> results;  ///< all metrics but those of this computer (run/...)
+};
+
+struct ComparisonSection {
+  std::string title;
+  std::vector<RunComparison::Difference> differences;
 };
 
 RunComparison compare(const RunReport& a, const RunReport& b);
@@ -29,8 +42,10 @@ RunComparison compare(const RunReport& a, const RunReport& b);
 /// something.
 nlohmann::ordered_json to_json(const RunComparison& comparison);
 
-/// For a person: the configuration, what the run is about, then stage by stage and port by port. `all`: every
-/// metric instead.
+/// What a person asks: the configuration, what the run is about, then stage by stage and port by port.
+std::vector<ComparisonSection> sections(const RunComparison& comparison);
+
+/// These as text. `all`: every metric instead.
 std::string to_text(const RunComparison& comparison, bool all);
 
 }  // namespace parallax

@@ -167,18 +167,23 @@ std::string draw_edge(const Diagram::Edge& edge, const Layout::Edge& layout) {
                         layout.curve[i + 2].y);
   }
   const double x = layout.label.x - kLabelWidth / 2 + 4, y = layout.label.y - kLabelHeight / 2;
-  constexpr double kGauge = 46;
-  return fmt::format(
+  std::string svg = fmt::format(
       "<g class=\"stream{}\"><title>{}: {}</title>"
-      "<path class=\"edge{}\" d=\"{}\" marker-end=\"url(#head)\"/>"
-      "<text class=\"soft\" x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"10.5\">{}</text>"
-      "<rect class=\"blanking\" opacity=\"0.35\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"{}\" height=\"6\"/>"
-      "<rect class=\"busy\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.2f}\" height=\"6\"/>"
-      "<rect class=\"blocked\" x=\"{:.2f}\" y=\"{:.1f}\" width=\"1.5\" height=\"8\"/>"
-      "<text class=\"soft\" x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"9.5\">{}</text></g>\n",
-      class_of(edge.mark), escaped(edge.title), escaped(edge.line), class_of(edge.mark), path, x, y + 10,
-      escaped(edge.title), x, y + 15, kGauge, x, y + 15, kGauge * edge.fill, x + kGauge * edge.peak - 0.75,
-      y + 14, x + kGauge + 5, y + 21.5, escaped(edge.line));
+      "<path class=\"edge{}{}\" d=\"{}\" marker-end=\"url(#head)\"/>"
+      "<text class=\"soft\" x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"10.5\">{}</text>",
+      class_of(edge.mark), escaped(edge.title), escaped(edge.line), class_of(edge.mark),
+      edge.gauge ? "" : " memory", path, x, y + 10, escaped(edge.title));
+  constexpr double kGauge = 46;
+  if (edge.gauge) {
+    svg += fmt::format(
+        "<rect class=\"blanking\" opacity=\"0.35\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"{}\" height=\"6\"/>"
+        "<rect class=\"busy\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.2f}\" height=\"6\"/>"
+        "<rect class=\"blocked\" x=\"{:.2f}\" y=\"{:.1f}\" width=\"1.5\" height=\"8\"/>",
+        x, y + 15, kGauge, x, y + 15, kGauge * edge.gauge->fill, x + kGauge * edge.gauge->peak - 0.75,
+        y + 14);
+  }
+  return svg + fmt::format("<text class=\"soft\" x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"9.5\">{}</text></g>\n",
+                           edge.gauge ? x + kGauge + 5 : x, y + 21.5, escaped(edge.line));
 }
 
 }  // namespace
@@ -187,8 +192,9 @@ std::string draw(const Diagram& diagram, const std::string& label) {
   const Layout placed = layout(diagram);
   std::string svg = fmt::format(
       "<svg class=\"diagram\" viewBox=\"-4 -4 {:.0f} {:.0f}\" role=\"group\" aria-label=\"{}\">"
-      "<defs><marker id=\"head\" viewBox=\"0 0 8 8\" refX=\"7\" refY=\"4\" markerWidth=\"7\" "
-      "markerHeight=\"7\" orient=\"auto\"><path class=\"head\" d=\"M0,0 8,4 0,8z\"/></marker></defs>\n",
+      "<defs><marker id=\"head\" viewBox=\"0 0 8 8\" refX=\"7\" refY=\"4\" markerWidth=\"10\" "
+      "markerHeight=\"10\" orient=\"auto\" markerUnits=\"userSpaceOnUse\"><path class=\"head\" "
+      "d=\"M0,0 8,4 0,8z\"/></marker></defs>\n",
       placed.size.x + 8, placed.size.y + 8, escaped(label));
   for (std::size_t i = 0; i < diagram.edges.size(); ++i) svg += draw_edge(diagram.edges[i], placed.edges[i]);
   for (std::size_t i = 0; i < diagram.nodes.size(); ++i) svg += draw_node(diagram.nodes[i], placed.nodes[i]);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,13 +23,16 @@ struct Diagram {
     std::vector<Share> shares;  ///< a bar; empty: none
     Mark mark = Mark::kNone;
   };
+  struct Gauge {
+    double fill = 0;  ///< 0..1
+    double peak = 0;  ///< 0..1, a mark
+  };
   struct Edge {
     std::string from;
     std::string to;
     std::string title;
-    std::string line;  ///< beside the gauge
-    double fill = 0;   ///< 0..1
-    double peak = 0;   ///< 0..1
+    std::string line;            ///< beside the gauge
+    std::optional<Gauge> gauge;  ///< none: not a FIFO
     Mark mark = Mark::kNone;
   };
   std::vector<Node> nodes;

@@ -22,7 +22,7 @@ std::string select_box(const char* id, const char* label, const std::string& opt
 
 std::string percentile_cell(const Json& tree, const std::string& path) {
   const Json* const metric = find_metric(tree, path);
-  return metric == nullptr ? "" : number_text((*metric)["value"].get<double>(), 3);
+  return metric == nullptr ? "" : number_text((*metric).at("value").get<double>(), 3);
 }
 
 }  // namespace
@@ -34,7 +34,7 @@ std::string memory_section(const ReportInput& input) {
   Table table("What passed each port of the memory",
               {"port", "B a frame", "MB/s", "share of the bus", "latency, ns: mean", "p50", "p95", "p99",
                "largest", "stalls caused"});
-  for (const auto& [name, entry] : tree["memory"].items()) {
+  for (const auto& [name, entry] : tree.at("memory").items()) {
     if (is_metric(entry)) {
       summary += fmt::format("{}{} {}", summary.empty() ? "" : "; ",
                              term(words(name), entry.value("description", "")), escaped(metric_text(entry)));
@@ -56,9 +56,9 @@ std::string memory_section(const ReportInput& input) {
   html += "<h3>Bandwidth by port over a frame's period</h3>\n" +
           canvas("chart-memory", "Bandwidth of each port over a frame's period");
   Table totals("Over this period, each port's bandwidth in bins of " +
-                   number_text(frame["bin"].get<double>() / 1e6, 1) + " us",
+                   number_text(frame.at("bin").get<double>() / 1e6, 1) + " us",
                {"port", "mean, MB/s", "largest bin, MB/s"});
-  for (const auto& [port, bins] : frame["bandwidth"].items()) {
+  for (const auto& [port, bins] : frame.at("bandwidth").items()) {
     double sum = 0, most = 0;
     for (const Json& bin : bins) {
       sum += bin.get<double>();
@@ -68,15 +68,15 @@ std::string memory_section(const ReportInput& input) {
         {escaped(words(port)), number_text(sum / static_cast<double>(bins.size()), 1), number_text(most, 1)});
   }
   html += totals.html();
-  if (!frame["rows"].contains("map")) return html;
-  const Json& map = frame["rows"]["map"];
+  if (!frame.at("rows").contains("map")) return html;
+  const Json& map = frame.at("rows").at("map");
   html += "<h3>The rectification map row by row</h3>\n" +
           canvas("chart-map", "Bytes and latency of each row of the rectification map");
   Table rows("", {"row", "bytes", "latency of its bursts, ns: mean", "longest"});
-  for (std::size_t i = 0; i < map["bytes"].size(); ++i)
-    rows.row({std::to_string(i), number_text(map["bytes"][i].get<double>(), 0),
-              number_text(map["latency_mean"][i].get<double>() / 1e3, 1),
-              number_text(map["latency_longest"][i].get<double>() / 1e3, 1)});
+  for (std::size_t i = 0; i < map.at("bytes").size(); ++i)
+    rows.row({std::to_string(i), number_text(map.at("bytes").at(i).get<double>(), 0),
+              number_text(map.at("latency_mean").at(i).get<double>() / 1e3, 1),
+              number_text(map.at("latency_longest").at(i).get<double>() / 1e3, 1)});
   return html + "<details><summary>As a table</summary>\n" + rows.html() + "</details>\n";
 }
 
@@ -91,7 +91,7 @@ std::string latency_section(const ReportInput& input) {
                            name == "exposure_to_host" ? " selected" : "", escaped(words(name)));
   };
   const Json counts = input.profile.is_object() ? input.profile.value("latency", Json()) : Json();
-  for (const auto& metric : tree["latency"].items()) {
+  for (const auto& metric : tree.at("latency").items()) {
     const std::string& key = metric.key();
     if (key.size() <= suffix.size() || key.substr(key.size() - suffix.size()) != suffix) continue;
     const std::string span = key.substr(0, key.size() - suffix.size());
@@ -99,11 +99,12 @@ std::string latency_section(const ReportInput& input) {
     for (const char* what : {"first_frame", "mean", "p50", "p95", "p99", "largest"})
       cells.push_back(percentile_cell(tree, fmt::format("latency/{}_{}", span, what)));
     table.row(cells);
-    if (counts.contains(span) && !counts[span]["count"].empty()) option(span, "ms");
+    if (counts.contains(span) && !counts.at(span).at("count").empty()) option(span, "ms");
   }
   if (counts.is_object()) {
     for (const auto& port : counts.items()) {
-      if (tree["memory"].contains(port.key()) && !port.value()["count"].empty()) option(port.key(), "ns");
+      if (tree.at("memory").contains(port.key()) && !port.value().at("count").empty())
+        option(port.key(), "ns");
     }
   }
   if (options.empty()) return table.html();
@@ -117,14 +118,14 @@ std::string limits_section(const ReportInput& input) {
       "One limit taken away at a time, and the machine run again",
       {"limit taken away", "frames/s", "gain", "exposure to host, ms", "limits then", "meaning", "settings"},
       "words");
-  const Json& base = input.relaxations["base"];
+  const Json& base = input.relaxations.at("base");
   table.row({"none", number_text(metric_number(base, "frame_rate"), 2), "",
              number_text(metric_number(base, "latency"), 3), "", "the machine as it is", ""});
   const std::string limit = input.relaxations.value("limit", "");
-  for (const Json& entry : input.relaxations["relaxations"]) {
+  for (const Json& entry : input.relaxations.at("relaxations")) {
     const std::string name = entry.value("name", "");
     std::string settings;
-    for (const Json& setting : entry["set"])
+    for (const Json& setting : entry.at("set"))
       settings += (settings.empty() ? "" : " ") + setting.get<std::string>();
     if (!entry.contains("gain")) {
       table.row({escaped(words(name)), "", "", "", "", escaped(entry.value("message", "")), ""});
@@ -132,7 +133,7 @@ std::string limits_section(const ReportInput& input) {
     }
     table.row(
         {escaped(words(name)), number_text(metric_number(entry, "frame_rate"), 2),
-         fmt::format("{:+.2f} %", metric_number(entry, "gain")),
+         fmt::format("{:+.2f}&nbsp;%", metric_number(entry, "gain") + 0.0),
          number_text(metric_number(entry, "latency"), 3), escaped(words(entry.value("next_part", ""))),
          escaped(entry.value("meaning", "")),
          settings.size() < 80 ? escaped(settings)
@@ -148,10 +149,10 @@ std::string energy_section(const ReportInput& input) {
   Table table("An estimate: what the parts did, times what a unit of it costs (keys energy.* of the preset)",
               {"part", "W", "mJ a frame", "what it holds"}, "words");
   const std::string prefix = "power_";
-  for (const auto& [name, metric] : tree["energy"].items()) {
+  for (const auto& [name, metric] : tree.at("energy").items()) {
     if (name.rfind(prefix, 0) != 0) continue;
     const std::string part = name.substr(prefix.size());
-    table.row({escaped(words(part)), number_text(metric["value"].get<double>(), 3),
+    table.row({escaped(words(part)), number_text(metric.at("value").get<double>(), 3),
                number_text(metric_number(tree, "energy/frame_" + part), 3),
                escaped(metric.value("description", ""))});
   }
@@ -165,8 +166,8 @@ void add_numbers(Table& table, const Json& group, const std::string& path) {
     const std::string here = path.empty() ? name : path + "/" + name;
     if (here == "configuration") continue;
     if (is_metric(entry)) {
-      const bool list = entry["value"].is_array();
-      table.row({escaped(here), escaped(list ? entry["value"].dump() : metric_text(entry)),
+      const bool list = entry.at("value").is_array();
+      table.row({escaped(here), escaped(list ? entry.at("value").dump() : metric_text(entry)),
                  escaped(entry.value("description", "")), escaped(entry.value("window", ""))});
     } else if (entry.is_object()) {
       add_numbers(table, entry, here);

@@ -19,7 +19,7 @@ std::string number_text(double value, int digits) {
 
 std::string metric_text(const nlohmann::ordered_json& metric) {
   if (!is_metric(metric)) return "";
-  const auto& value = metric["value"];
+  const auto& value = metric.at("value");
   const std::string unit = metric.value("unit", "");
   if (value.is_string()) return value.get<std::string>();
   if (!value.is_number()) return value.dump();
@@ -42,12 +42,14 @@ const nlohmann::ordered_json* find_metric(const nlohmann::ordered_json& tree, st
 
 double metric_number(const nlohmann::ordered_json& tree, std::string_view path, double otherwise) {
   const auto* const metric = find_metric(tree, path);
-  return metric != nullptr && (*metric)["value"].is_number() ? (*metric)["value"].get<double>() : otherwise;
+  return metric != nullptr && (*metric).at("value").is_number() ? (*metric).at("value").get<double>()
+                                                                : otherwise;
 }
 
 std::string metric_word(const nlohmann::ordered_json& tree, std::string_view path) {
   const auto* const metric = find_metric(tree, path);
-  return metric != nullptr && (*metric)["value"].is_string() ? (*metric)["value"].get<std::string>() : "";
+  return metric != nullptr && (*metric).at("value").is_string() ? (*metric).at("value").get<std::string>()
+                                                                : "";
 }
 
 std::string metric_meaning(const nlohmann::ordered_json& tree, std::string_view path) {
@@ -58,7 +60,9 @@ std::string metric_meaning(const nlohmann::ordered_json& tree, std::string_view 
 }
 
 bool is_metric(const nlohmann::ordered_json& entry) {
-  return entry.is_object() && entry.contains("value") && entry.contains("unit") && entry["unit"].is_string();
+  const auto is_word = [&](const char* key) { return !entry.contains(key) || entry.at(key).is_string(); };
+  return entry.is_object() && entry.contains("value") && entry.contains("unit") && is_word("unit") &&
+         is_word("description") && is_word("window");
 }
 
 std::string metric_term(const nlohmann::ordered_json& tree, std::string_view path, std::string_view word) {

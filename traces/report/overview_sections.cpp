@@ -21,6 +21,12 @@ std::string card(const Json& tree, const char* path, const char* name) {
   return metric == nullptr ? "" : card(metric_text(*metric), metric_term(tree, path, name));
 }
 
+std::string large_number(double value, const std::string& unit) {
+  if (value >= 1e9) return escaped(fmt::format("{:.3g} billion {}", value / 1e9, unit));
+  if (value >= 1e6) return escaped(fmt::format("{:.3g} million {}", value / 1e6, unit));
+  return escaped(fmt::format("{:.5g} {}", value, unit));
+}
+
 std::string per_second(const Json& tree, const char* path, double unit, const char* unit_name,
                        const char* name) {
   if (find_metric(tree, path) == nullptr) return "";
@@ -30,7 +36,7 @@ std::string per_second(const Json& tree, const char* path, double unit, const ch
 
 std::string stuck_banner(const Json& tree) {
   std::string waits;
-  for (const auto& [name, wait] : tree["deadlock"].items()) {
+  for (const auto& [name, wait] : tree.at("deadlock").items()) {
     if (is_metric(wait)) continue;
     waits += fmt::format("<li>{} waits on stream <b>{}</b> ({}, depth {}) for {}</li>\n",
                          escaped(metric_word(wait, "waiter")), escaped(metric_word(wait, "stream")),
@@ -86,7 +92,7 @@ std::string overview(const ReportInput& input) {
                  metric_term(tree, "energy/power_total", "power, an estimate"));
   }
   if (tree.contains("quality")) {
-    for (const auto& [name, metric] : tree["quality"].items()) {
+    for (const auto& [name, metric] : tree.at("quality").items()) {
       if (is_metric(metric) &&
           (name == "density" || name == "coverage" || name.rfind("bad_3", 0) == 0 || name == "mean_error"))
         html += card(metric_text(metric), metric_term(tree, "quality/" + name, words(name)));
@@ -113,12 +119,12 @@ std::string budget_section(const ReportInput& input) {
       {"published for", "figure", "published", "this run", "deviation", "verdict", "source"}, "words");
   for (const BudgetLine& line : input.budget) {
     std::vector<std::string> cells = {escaped(line.name), escaped(words(line.metric)),
-                                      escaped(fmt::format("{:.6g} {}", line.published, line.unit))};
+                                      large_number(line.published, line.unit)};
     if (line.reached) {
-      // More per second is better, and so is less time.
-      const bool time = line.unit == "ms" || line.unit == "s" || line.unit == "us";
-      const bool pass = time ? *line.reached <= line.published : *line.reached >= line.published;
-      cells.push_back(escaped(fmt::format("{:.6g} {}", *line.reached, line.unit)));
+      // Of time and power less is better, of all else more.
+      const bool less = line.unit == "ms" || line.unit == "W";
+      const bool pass = less ? *line.reached <= line.published : *line.reached >= line.published;
+      cells.push_back(large_number(*line.reached, line.unit));
       cells.push_back(fmt::format("{:+.2f} %", 100 * (*line.reached / line.published - 1)));
       cells.push_back(pass ? "<span class=\"pass\">pass</span>" : "<span class=\"fail\">fail</span>");
     } else {

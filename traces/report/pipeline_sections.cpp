@@ -53,68 +53,121 @@ std::string short_name(const std::string& path) {
 std::set<std::string> waiting(const Json& tree, const char* what) {
   std::set<std::string> names;
   if (!tree.contains("deadlock")) return names;
-  for (const Json& wait : tree["deadlock"]) names.insert(metric_word(wait, what));
+  for (const Json& wait : tree.at("deadlock")) names.insert(metric_word(wait, what));
   return names;
 }
 
-Diagram::Node stage_node(const ReportInput& input, const std::string& name) {
-  const Json& tree = input.timing;
-  const Json& stage = tree["stages"][name];
+Diagram::Node stage_node(const Json& tree, const std::string& name) {
+  const Json& stage = tree.at("stages").at(name);
   const double pixels =
       metric_number(tree, "input/processed_width") * metric_number(tree, "input/processed_height");
   Diagram::Node node;
   node.title = name;
   node.target = "stage-" + name;
-  node.line = fmt::format("{} cycles/px, {:.1f} %",
-                          number_text(metric_number(stage, "cycles_per_frame") / std::max(pixels, 1.0), 2),
-                          metric_number(stage, "utilisation", share(stage, "busy")));
+  node.line =
+      fmt::format("{} cycles/px, {:.1f} %",
+                  number_text(metric_number(stage, "cycles_per_frame") / std::max(pixels, 1.0), 2),
+                  tree.contains("deadlock") ? share(stage, "busy") : metric_number(stage, "utilisation"));
   for (const Activity& activity : kActivities)
     node.shares.push_back({activity.name, share(stage, activity.name) / 100});
   return node;
 }
 
-Diagram diagram_of(const ReportInput& input) {
-  const Json& tree = input.timing;
-  const std::set<std::string> waiters = waiting(tree, "waiter"), streams = waiting(tree, "stream");
-  const std::string limit = metric_word(tree, "limit/part");
-  Diagram diagram;
-  std::set<std::string> known;
-  const auto add_node = [&](const std::string& path) {
-    if (!known.insert(path).second) return;
-    const std::string name = path.substr(path.rfind('.') + 1);
+class PipelineDiagram {
+ public:
+  explicit PipelineDiagram(const Json& tree) : tree_(tree), waiters_(waiting(tree, "waiter")) {
+    // In the order of the data: the order in which the keyboard goes through them.
+    for (const char* group : {"streams", "buffers"}) {
+      if (!tree.contains(group)) continue;
+      for (const auto& entry : tree.at(group).items()) {
+        ends_.insert(metric_word(entry.value(), "writer"));
+        ends_.insert(metric_word(entry.value(), "reader"));
+      }
+    }
+    for (const auto& stage : tree.at("stages").items()) {
+      for (const std::string& path : ends_) {
+        if (last_name(path) == stage.key()) add_node(path);
+      }
+    }
+    for (const std::string& path : ends_) {
+      if (!path.empty()) add_node(path);
+    }
+    add_limit();
+    for (const auto& stream : tree.at("streams").items()) add_stream(stream.key(), stream.value());
+    if (!tree.contains("buffers")) return;
+    for (const auto& buffers : tree.at("buffers").items()) {
+      diagram_.edges.push_back({metric_word(buffers.value(), "writer"),
+                                metric_word(buffers.value(), "reader"),
+                                buffers.key() + " buffers",
+                                fmt::format("{:.0f} in memory", metric_number(buffers.value(), "number")),
+                                {}});
+    }
+  }
+
+  const Diagram& diagram() const { return diagram_; }
+
+ private:
+  static std::string last_name(const std::string& path) { return path.substr(path.rfind('.') + 1); }
+
+  void add_node(const std::string& path) {
+    if (!known_.insert(path).second) return;
+    const std::string name = last_name(path);
     Diagram::Node node;
-    if (tree["stages"].contains(name)) {
-      node = stage_node(input, name);
+    if (tree_.at("stages").contains(name)) {
+      node = stage_node(tree_, name);
     } else {
       node.title = words(short_name(path));
-      const Json* const load = find_metric(tree, "limit/utilisation_by_part/" + name);
-      node.line = load == nullptr ? "" : metric_text(*load);
+      const Json* const load = find_metric(tree_, "limit/utilisation_by_part/" + name);
+      if (load != nullptr) node.line = metric_text(*load);
     }
     node.id = path;
-    if (waiters.count(path) != 0) node.mark = Diagram::Mark::kWaits;
-    if (name == limit) node.mark = Diagram::Mark::kLimits;
-    diagram.nodes.push_back(std::move(node));
-  };
-  for (const auto& [name, stream] : tree["streams"].items()) {
-    Diagram::Edge edge{metric_word(stream, "writer"),
-                       metric_word(stream, "reader"),
-                       name,
-                       "",
-                       0,
-                       0,
-                       streams.count(name) != 0 ? Diagram::Mark::kWaits : Diagram::Mark::kNone};
-    if (edge.from.empty() || edge.to.empty()) continue;
-    add_node(edge.from);
-    add_node(edge.to);
+    if (waiters_.count(path) != 0) node.mark = Diagram::Mark::kWaits;
+    if (name == metric_word(tree_, "limit/part")) node.mark = Diagram::Mark::kLimits;
+    diagram_.nodes.push_back(std::move(node));
+  }
+
+  // A part that is none of the modules here, such as the host, stands by itself.
+  void add_limit() {
+    const std::string part = metric_word(tree_, "limit/part");
+    const auto limits = [](const Diagram::Node& node) { return node.mark == Diagram::Mark::kLimits; };
+    if (part.empty() || part == "none" || std::any_of(diagram_.nodes.begin(), diagram_.nodes.end(), limits))
+      return;
+    Diagram::Node node;
+    node.id = node.title = words(part);
+    node.line = fmt::format("{:.1f} %, limits", metric_number(tree_, "limit/utilisation"));
+    node.mark = Diagram::Mark::kLimits;
+    diagram_.nodes.push_back(std::move(node));
+  }
+
+  void add_stream(const std::string& name, const Json& stream) {
+    Diagram::Edge edge{metric_word(stream, "writer"), metric_word(stream, "reader"), name, "", {}};
+    if (edge.from.empty() || edge.to.empty()) return;
     const double depth = std::max(1.0, metric_number(stream, "depth"));
     const double mean = metric_number(stream, "mean_occupancy");
-    edge.fill = std::min(1.0, mean / depth);
-    edge.peak = std::min(1.0, metric_number(stream, "high_water") / depth);
+    edge.gauge = Diagram::Gauge{std::min(1.0, mean / depth),
+                                std::min(1.0, metric_number(stream, "high_water") / depth)};
     edge.line = fmt::format("{} of {}", number_text(mean, mean < 10 ? 1 : 0), number_text(depth, 0));
-    diagram.edges.push_back(std::move(edge));
+    if (tree_.contains("deadlock")) add_wait(name, edge);
+    diagram_.edges.push_back(std::move(edge));
   }
-  return diagram;
-}
+
+  // What a stream's FIFO was when the machine got stuck says more than its mean.
+  void add_wait(const std::string& name, Diagram::Edge& edge) {
+    for (const Json& wait : tree_.at("deadlock")) {
+      if (metric_word(wait, "stream") != name) continue;
+      const bool full = metric_word(wait, "state") == "full";
+      edge.mark = Diagram::Mark::kWaits;
+      edge.gauge = Diagram::Gauge{full ? 1.0 : 0.0, full ? 1.0 : 0.0};
+      edge.line = fmt::format("{}, depth {:.0f}", full ? "full" : "empty", metric_number(wait, "depth"));
+    }
+  }
+
+  const Json& tree_;
+  const std::set<std::string> waiters_;
+  std::set<std::string> ends_;
+  std::set<std::string> known_;
+  Diagram diagram_;
+};
 
 // The parts of the machine around the stages, and how much of the time each is at work.
 std::string parts_table(const Json& tree) {
@@ -123,8 +176,8 @@ std::string parts_table(const Json& tree) {
   const std::string limit = metric_word(tree, "limit/part");
   Table table("How much of the time each part of the machine is at work", {"part", "at work", ""});
   for (const auto& [name, metric] : tree.at(path).items()) {
-    if (tree["stages"].contains(name)) continue;
-    const double load = metric["value"];
+    if (tree.at("stages").contains(name)) continue;
+    const double load = metric.at("value");
     const bool limits = name == limit;
     table.row(
         {term(words(name), metric.value("description", "")), fmt::format("{:.1f} %", load),
@@ -138,25 +191,26 @@ std::string parts_table(const Json& tree) {
 
 std::string pipeline_section(const ReportInput& input) {
   const Json& tree = input.timing;
-  const Diagram diagram = diagram_of(input);
-  if (diagram.nodes.empty()) return "";
+  if (tree.at("streams").empty()) return "";
   return fmt::format(
       "<p class=\"soft\">A box is a stage: its cycles a pixel, how busy it is, and where its time goes; a "
       "round box is an engine of a memory port, a sensor or the link. A line is a FIFO: tokens held on "
-      "average of its depth, and a mark at the largest number held. {}</p>\n{}"
+      "average of its depth, and a mark at the largest number held; or buffers in memory. {}</p>\n{}"
       "<div class=\"pipeline\"><div>{}</div>\n<aside class=\"details script-only\" id=\"details\" "
       "aria-live=\"polite\"><p class=\"soft\">Choose a stage for its numbers: with the pointer, or with tab, "
       "arrows and space.</p></aside></div>\n{}",
       tree.contains("deadlock") ? "Red: who waits in a circle, and on what."
                                 : "The part that limits has a thick border.",
-      legend(), draw(diagram, "The stages and the FIFOs between them; the tables below say the same"),
+      legend(),
+      draw(PipelineDiagram(tree).diagram(),
+           "The stages and the FIFOs between them; the tables below say the same"),
       parts_table(tree));
 }
 
 std::string stages_section(const ReportInput& input) {
   const Json& tree = input.timing;
-  if (tree["stages"].empty()) return "";
-  const std::string first = "stages/" + tree["stages"].begin().key() + "/";
+  if (tree.at("stages").empty()) return "";
+  const std::string first = "stages/" + tree.at("stages").begin().key() + "/";
   std::vector<std::string> headings = {
       "stage", metric_term(tree, first + "cycles_per_frame", "cycles a frame"), "interval",
       metric_term(tree, first + "utilisation", "busy of the frame"), "where its time goes"};
@@ -164,7 +218,7 @@ std::string stages_section(const ReportInput& input) {
     headings.push_back(metric_term(tree, first + activity.name, activity.title));
   Table table("Where the time of each stage goes", headings);
   const std::string limit = metric_word(tree, "limit/part");
-  for (const auto& [name, stage] : tree["stages"].items()) {
+  for (const auto& [name, stage] : tree.at("stages").items()) {
     std::string bar = "<span class=\"bar\">";
     for (const Activity& activity : kActivities)
       bar += fmt::format("<i class=\"{}\" style=\"width:{:.1f}%\"></i>", activity.name,
@@ -183,8 +237,8 @@ std::string stages_section(const ReportInput& input) {
 
 std::string fifos_section(const ReportInput& input) {
   const Json& tree = input.timing;
-  if (tree["streams"].empty()) return "";
-  const std::string first = "streams/" + tree["streams"].begin().key() + "/";
+  if (tree.at("streams").empty()) return "";
+  const std::string first = "streams/" + tree.at("streams").begin().key() + "/";
   const auto heading = [&](const char* name, const char* title) {
     return metric_term(tree, first + name, title);
   };
@@ -193,22 +247,25 @@ std::string fifos_section(const ReportInput& input) {
                heading("mean_occupancy", "mean"), heading("high_water", "largest"), heading("full", "full"),
                heading("empty", "empty"), heading("blocked_on_full", "held its writer back"),
                heading("starved_on_empty", "held its reader back")});
-  std::string options, deepest;
+  // First shown: the deepest one, in a deadlock one of those that take part.
+  const std::set<std::string> stuck = waiting(tree, "stream");
+  std::string options, shown;
   double most = -1;
-  for (const auto& [name, stream] : tree["streams"].items()) {
+  for (const auto& [name, stream] : tree.at("streams").items()) {
     const double depth = metric_number(stream, "depth");
-    table.row({escaped(name), number_text(depth, 0), metric_text(stream["width"]),
+    table.row({escaped(name), number_text(depth, 0), metric_text(stream.at("width")),
                escaped(metric_word(stream, "kind")), number_text(metric_number(stream, "mean_occupancy"), 1),
                number_text(metric_number(stream, "high_water"), 0),
                fmt::format("{:.1f} %", metric_number(stream, "full")),
                fmt::format("{:.1f} %", metric_number(stream, "empty")),
-               metric_text(stream["blocked_on_full"]), metric_text(stream["starved_on_empty"])});
-    if (depth > most) deepest = name;
-    most = std::max(most, depth);
+               metric_text(stream.at("blocked_on_full")), metric_text(stream.at("starved_on_empty"))});
+    const double interest = depth + (stuck.count(name) != 0 ? 1e9 : 0);
+    if (interest > most) shown = name;
+    most = std::max(most, interest);
   }
-  for (const auto& stream : tree["streams"].items()) {
-    options += fmt::format("<option{}>{}</option>", stream.key() == deepest ? " selected" : "",
-                           escaped(stream.key()));
+  for (const auto& stream : tree.at("streams").items()) {
+    options +=
+        fmt::format("<option{}>{}</option>", stream.key() == shown ? " selected" : "", escaped(stream.key()));
   }
   return fmt::format(
              "<p class=\"script-only\"><label>Tokens held in <select id=\"stream\">{}</select></label></p>\n",
@@ -224,10 +281,10 @@ std::string storage_section(const ReportInput& input) {
       {"part", "line buffers", "its FIFOs to other stages", "together"});
   double all_lines = 0, all_fifos = 0;
   const auto kibibits = [](double bits) { return number_text(bits / 1024, 1) + " Kibit"; };
-  for (const auto& [name, stage] : tree["stages"].items()) {
+  for (const auto& [name, stage] : tree.at("stages").items()) {
     const double lines = metric_number(stage, "storage");
     double fifos = 0;
-    for (const Json& stream : tree["streams"]) {
+    for (const Json& stream : tree.at("streams")) {
       const std::string writer = metric_word(stream, "writer");
       if (writer.substr(writer.rfind('.') + 1) == name)
         fifos += metric_number(stream, "depth") * metric_number(stream, "width");

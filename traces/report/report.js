@@ -81,7 +81,7 @@
     chart("chart-memory", () => ({
       type: "line",
       data: { labels: frame.bandwidth[ports[0]].map((_, i) => number(i * frame.bin / 1e9, 2)),
-        datasets: ports.map((port, i) => ({ label: port, data: frame.bandwidth[port], fill: true, stepped: true, pointRadius: 0,
+        datasets: ports.map((port, i) => ({ label: port, data: frame.bandwidth[port], fill: i === 0 ? "origin" : "-1", stepped: true, pointRadius: 0,
           borderWidth: 1, borderColor: palette[i % palette.length], backgroundColor: palette[i % palette.length] + "99" })) },
       options: { scales: { x: axis("ms of a frame's period", { ticks: { maxTicksLimit: 12 } }),
         y: axis("MB/s, ports on top of each other", { stacked: true, beginAtZero: true }) } },
@@ -90,9 +90,9 @@
     if (map) chart("chart-map", () => ({
       data: { labels: map.bytes.map((_, i) => i), datasets: [
         { type: "bar", label: "bytes", data: map.bytes, backgroundColor: color("busy"), yAxisID: "y", barPercentage: 1,
-          categoryPercentage: 1 },
+          categoryPercentage: 1, order: 1 },
         { type: "line", label: "mean latency of its bursts, ns", data: map.latency_mean.map((x) => x / 1e3), pointRadius: 0,
-          borderWidth: 1, borderColor: color("blocked"), yAxisID: "latency" }] },
+          borderWidth: 1, borderColor: color("starved"), backgroundColor: color("starved"), yAxisID: "latency", order: 0 }] },
       options: { scales: { x: axis("row of the rectification map", { ticks: { maxTicksLimit: 16 } }),
         y: axis("bytes of the row", { beginAtZero: true }),
         latency: axis("ns", { position: "right", beginAtZero: true, grid: { drawOnChartArea: false } }) } },
@@ -136,6 +136,15 @@
         datasets: [{ label: "gain, %", data: gains.map((entry) => value(entry.gain)), backgroundColor: color("limit") }] },
       options: { indexAxis: "y", plugins: { legend: { display: false } },
         scales: { x: axis("gain of the frame rate with this limit alone taken away, %") } },
+    }));
+  }
+
+  if (data.comparison) {
+    chart("chart-comparison", () => ({
+      type: "bar",
+      data: { labels: data.comparison.names, datasets: ["a", "b"].map((run) => ({ label: run.toUpperCase(),
+        data: data.comparison[run], backgroundColor: color(run === "a" ? "busy" : "starved") })) },
+      options: { indexAxis: "y", scales: { x: axis("of the time, %", { beginAtZero: true, max: 100 }) } },
     }));
   }
 
