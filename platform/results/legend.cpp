@@ -31,21 +31,22 @@ class Zoom {
 
   int operator()(int pixels) const { return static_cast<int>(std::lround(factor_ * pixels)); }
 
+  /// How thick a line is.
+  int line() const { return static_cast<int>(factor_); }
+
   int text_width(const std::string& text) const {
     int baseline = 0;
-    return cv::getTextSize(text, kFont, kTextScale * factor_, thickness(), &baseline).width;
+    return cv::getTextSize(text, kFont, kTextScale * factor_, line(), &baseline).width;
   }
 
   /// `middle`: of the row of text.
   void put_text(cv::Mat& image, const std::string& text, int left, int middle) const {
     cv::putText(image, text, {left, middle + (*this)(kTextHeight) / 2}, kFont, kTextScale * factor_, kInk,
-                thickness(), cv::LINE_AA);
+                line(), cv::LINE_AA);
   }
 
  private:
   static constexpr int kFont = cv::FONT_HERSHEY_SIMPLEX;
-  int thickness() const { return std::max(1, static_cast<int>(factor_)); }
-
   double factor_;
 };
 
@@ -73,7 +74,7 @@ cv::Mat draw_scale(const LegendScale& scale, int width) {
   for (const int value :
        scale_ticks(scale.colors.lowest(), scale.colors.highest(), (place.last - place.first) / room + 1)) {
     const int x = place.column(scale, value);
-    image(cv::Rect(x, place.bottom + 1, 1, tick_end - place.bottom)) = kInk;
+    image(cv::Rect(x - zoom.line() / 2, place.bottom + 1, zoom.line(), tick_end - place.bottom)) = kInk;
     const std::string text = tick_text(scale, value);
     zoom.put_text(image, text, x - zoom.text_width(text) / 2, image.rows - zoom(kTextHeight) / 2 - 1);
   }

@@ -160,8 +160,9 @@ TEST(ErrorColors, ErrorsInvalidAndNotScored) {
 }
 
 TEST(ErrorColors, WhatHasNoErrorIsNotTakenForOne) {
-  for (const LegendEntry& entry : error_legend().entries) {
-    for (const cv::Vec3b& color : error_scale().colors()) {
+  const Legend legend = error_legend();
+  for (const LegendEntry& entry : legend.entries) {
+    for (const cv::Vec3b& color : legend.scale->colors.colors()) {
       EXPECT_GT(cv::norm(entry.color, color), 60) << entry.name;
     }
   }
