@@ -13,11 +13,12 @@ constexpr int kNarrowest = 96;    // px: narrower pictures have no room for text
 constexpr int kReadableAt = 512;  // px: wider pictures are looked at from farther away
 constexpr int kTextHeight = 9;    // px, of OpenCV's Hershey font at kTextScale
 constexpr double kTextScale = 0.4;
-constexpr int kMargin = 4;    // px
-constexpr int kSwatch = 10;   // px
-constexpr int kRow = 20;      // px, of names
-constexpr int kBar = 12;      // px
-constexpr int kTick = 4;      // px
+constexpr int kMargin = 4;   // px
+constexpr int kSwatch = 10;  // px
+constexpr int kRow = 20;     // px, of names
+constexpr int kBar = 12;     // px
+constexpr int kTick = 4;     // px
+constexpr int kMostTicks = 12;
 constexpr int kTickGap = 10;  // px, between two numbers
 constexpr int kPanelGap = 8;  // px, between two pictures
 
@@ -70,7 +71,7 @@ cv::Mat draw_scale(const LegendScale& scale, int width) {
     const auto color = static_cast<std::size_t>(std::lround(share * static_cast<double>(colors.size() - 1)));
     image(cv::Rect(x, place.top, 1, place.bottom - place.top + 1)) = cv::Scalar(colors[color]);
   }
-  const int room = widest_tick(scale, zoom) + zoom(kTickGap);
+  const int room = std::max(widest_tick(scale, zoom) + zoom(kTickGap), (width - 1) / kMostTicks);
   for (const int value :
        scale_ticks(scale.colors.lowest(), scale.colors.highest(), (place.last - place.first) / room + 1)) {
     const int x = place.column(scale, value);
@@ -108,7 +109,7 @@ cv::Mat draw_names(const Legend& legend, int width) {
     const cv::Rect swatch(corner.x + zoom(kMargin), corner.y + (zoom(kRow) - zoom(kSwatch)) / 2,
                           zoom(kSwatch), zoom(kSwatch));
     cv::rectangle(image, swatch, cv::Scalar(entry.color), cv::FILLED);
-    cv::rectangle(image, swatch, kInk);  // so that black shows on black
+    cv::rectangle(image, swatch, kInk, zoom.line());  // so that black shows on black
     zoom.put_text(image, entry.name, corner.x + indent, corner.y + zoom(kRow) / 2);
   }
   return image;

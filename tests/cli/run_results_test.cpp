@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstring>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>
@@ -94,6 +95,42 @@ class RunResults : public ::testing::Test {
     for (const int pixels : kinds) EXPECT_GT(pixels, 20);
   }
 
+  /// points.ply against disparity.png and the cameras' projections: u = P1 (X, Y, Z, 1), d = u_left -
+  /// u_right.
+  void check_points(const std::string& calibration, const std::string& folder) const {
+    cv::FileStorage file((program_ / calibration).string(), cv::FileStorage::READ);
+    cv::Mat p1, p2;
+    file["P1"] >> p1;
+    file["P2"] >> p2;
+    const double f = p1.at<double>(0, 0), cx = p1.at<double>(0, 2), cy = p1.at<double>(1, 2);
+    const double shift = cx - p2.at<double>(0, 2), baseline = -p2.at<double>(0, 3) / f;
+    const cv::Mat disparities = image(folder + "disparity.png"), left = image(folder + "left_rectified.png");
+    const std::string ply = program_.read(folder + "points.ply");
+    const std::string end = "end_header\n";
+    const char* next = ply.data() + ply.find(end) + end.size();
+    int points = 0;
+    for (int y = 0; y < disparities.rows; ++y) {
+      for (int x = 0; x < disparities.cols; ++x) {
+        const int value = disparities.at<std::uint16_t>(y, x);
+        if (value <= 1 || value / 256.0 == shift) continue;  // invalid, or at infinity
+        const double z = f * baseline / (value / 256.0 - shift);
+        ASSERT_LE(next + 15, ply.data() + ply.size());
+        float point[3];
+        std::memcpy(point, next, sizeof point);
+        EXPECT_NEAR(point[0], (x - cx) * z / f, 1e-5 * std::abs(z));
+        EXPECT_NEAR(point[1], (y - cy) * z / f, 1e-5 * std::abs(z));
+        EXPECT_NEAR(point[2], z, 1e-5 * std::abs(z));
+        for (int channel = 12; channel < 15; ++channel) {
+          ASSERT_EQ(static_cast<unsigned char>(next[channel]), left.at<std::uint8_t>(y, x));
+        }
+        next += 15;
+        ++points;
+      }
+    }
+    EXPECT_EQ(next, ply.data() + ply.size());
+    EXPECT_GT(points, 1000);
+  }
+
   json timing(const std::string& folder) const { return json::parse(program_.read(folder + "timing.json")); }
 
   test::Program program_;
@@ -178,6 +215,7 @@ TEST_F(RunResults, OfASequence) {
     expected.push_back(folder);
     for (const std::string& file : frame_files(false, true, folder)) expected.push_back(file);
     check_frame("out/" + folder, 96, 64);
+    check_points("in/calib.yml", "out/" + folder);
   }
   expected.insert(expected.end(), {"profile.json", "strip.gif", "timing.json"});
   EXPECT_EQ(program_.files("out"), expected);
