@@ -30,6 +30,7 @@
 #include "platform/results/report_file.hpp"
 #include "platform/results/result_names.hpp"
 #include "platform/results/run_metrics.hpp"
+#include "platform/results/strip_gif.hpp"
 #include "platform/standby_evaluator.hpp"
 #include "platform/tracing/run_profile.hpp"
 #include "platform/tracing/tracing.hpp"
@@ -57,11 +58,11 @@ class Run {
         rectification_(choose_rectification(options, configuration_.machine.rectification.range, *source_,
                                             padded_, notice_)),
         total_frames_(frames_to_simulate(configuration_.machine, source_->frames(), options.timing_frames)),
-        trace_choice_(read_trace_options(options.trace)) {
+        trace_choice_(read_trace_options(options.trace)),
+        writing_{disparity_scale(configuration_.machine.matching.range().offset,
+                                 configuration_.machine.matching.range().last()),
+                 options.point_cloud ? rectification_.q : std::nullopt} {
     if (const std::string line = padding_notice(size_, granularity_); !line.empty()) note(line);
-    const DisparityRange range = configuration_.machine.matching.range();
-    writing_.colors = {range.offset, range.last()};
-    if (options.point_cloud) writing_.q = rectification_.q;
   }
 
   int execute() {
@@ -184,22 +185,28 @@ class Run {
   }
 
   void keep(const FrameResult& result) {
-    const std::vector<Disparity> disparities = crop_disparities(result.disparities, padded_.width, size_);
+    FrameImages frame;
+    frame.disparities = crop_disparities(result.disparities, padded_.width, size_);
     ++totals_.frames;
     totals_.pixels += size_.area();
-    totals_.valid +=
-        std::count_if(disparities.begin(), disparities.end(), [](const Disparity& d) { return d.valid(); });
-    if (const auto truth = source_->truth(result.index)) {
+    totals_.valid += std::count_if(frame.disparities.begin(), frame.disparities.end(),
+                                   [](const Disparity& d) { return d.valid(); });
+    frame.truth = source_->truth(result.index);
+    if (frame.truth) {
       totals_.has_truth = true;
-      totals_.evaluation += evaluate(disparities, size_.width, *truth);
+      totals_.evaluation += evaluate(frame.disparities, size_.width, *frame.truth);
     }
     if (!folder_) return;
     cv::Mat left(padded_, CV_8UC1);
     std::copy(result.left.begin(), result.left.end(), left.begin<Gray>());
+    frame.left = crop_image(left, size_);
     const std::string prefix = source_->frames() == 1 ? "" : fmt::format("frame_{:04}/", result.index);
-    write_frame(*folder_, prefix, crop_image(left, size_), disparities, writing_);
-    // The frames of a sequence appear one by one, a single pair's results together with its timing.
-    if (source_->frames() > 1) folder_->publish();
+    write_frame(*folder_, prefix, frame, writing_);
+    if (source_->frames() == 1) return;  // a single pair's results appear together with its timing
+    folder_->publish();
+    if (!strip_) strip_ = std::make_unique<StripGif>(folder_->path() / "strip.gif", size_, writing_.colors);
+    strip_->add(frame.left, {frame.disparities, size_.width, size_.height},
+                sc_core::sc_time_stamp().to_seconds() * 1e3);
   }
 
   // The files say how far it came.
@@ -266,7 +273,9 @@ class Run {
     if (!folder_) return;
     if (profile_) folder_->write("profile.json", profile_->to_json().dump() + "\n");
     folder_->write("timing.json", tree.dump(2) + "\n");
+    if (strip_) strip_->complete();
     folder_->publish();
+    if (strip_) strip_->publish();
     if (!options_.report) return;
     folder_->write("report.html", report_of(folder_->path()));
     folder_->publish();
@@ -281,6 +290,8 @@ class Run {
       context_.out << summary(metrics);
       if (context_.verbosity == Verbosity::kVerbose) context_.out << stage_summary(metrics);
       if (folder_) context_.out << fmt::format("results             {}\n", options_.out.string());
+      if (options_.report)
+        context_.out << fmt::format("report              {}\n", (options_.out / "report.html").string());
     }
   }
 
@@ -304,11 +315,12 @@ class Run {
   const RectificationChoice rectification_;
   const std::int64_t total_frames_;
   std::unique_ptr<OutputFolder> folder_;
+  std::unique_ptr<StripGif> strip_;  ///< of a sequence
   const TraceChoice trace_choice_;
+  const FrameResultOptions writing_;
   std::unique_ptr<Tracing> tracing_;
   std::unique_ptr<RunProfile> profile_;
   std::unique_ptr<StandbyEvaluator> standby_;
-  FrameResultOptions writing_;
   std::unique_ptr<Progress> progress_;
   RunTotals totals_;
   std::int64_t delivered_ = 0;

@@ -9,6 +9,11 @@
 
 namespace parallax {
 
+/// A valid disparity, px.
+inline double in_pixels(const Disparity& disparity) {
+  return disparity.value / double{1 << kDisparityFractionBits};
+}
+
 /// A disparity map that belongs to somebody else: rows from top to bottom without gaps.
 struct DisparityView {
   DisparityView(const std::vector<Disparity>& map, int map_width, int map_height)

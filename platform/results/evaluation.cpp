@@ -12,7 +12,6 @@ namespace parallax {
 
 namespace {
 
-constexpr int kStepsPerPixel = 256;  ///< of the ground truth
 constexpr int kTruthShift = 8 - kDisparityFractionBits;
 constexpr std::uint8_t kScored = 255;
 
@@ -40,15 +39,19 @@ std::vector<T> pixels_of(const cv::Mat& image) {
   return {image.begin<T>(), image.end<T>()};
 }
 
-bool is_scored(const GroundTruth& truth, std::size_t pixel) {
-  return truth.disparity[pixel] != 0 && (truth.mask.empty() || truth.mask[pixel] == kScored);
-}
-
 double share(std::int64_t part, std::int64_t whole) {
   return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
 }
 
 }  // namespace
+
+bool GroundTruth::scored(std::size_t pixel) const {
+  return disparity[pixel] != 0 && (mask.empty() || mask[pixel] == kScored);
+}
+
+int GroundTruth::error(std::size_t pixel, const Disparity& found) const {
+  return std::abs((found.value << kTruthShift) - disparity[pixel]);
+}
 
 GroundTruth read_ground_truth(const std::string& path, const std::string& mask_path, int width, int height) {
   const cv::Mat truth = read_image("ground truth", path, width, height);
@@ -66,7 +69,7 @@ GroundTruth read_ground_truth(const std::string& path, const std::string& mask_p
     result.mask = pixels_of<std::uint8_t>(mask);
   }
   bool any = false;
-  for (std::size_t i = 0; i < result.disparity.size() && !any; ++i) any = is_scored(result, i);
+  for (std::size_t i = 0; i < result.disparity.size() && !any; ++i) any = result.scored(i);
   if (!any) {
     throw UserError(path + ": no pixel to score; every disparity is 0 (unknown)" +
                     (mask_path.empty() ? "" : " or masked by " + mask_path));
@@ -83,14 +86,14 @@ Evaluation evaluate(const std::vector<Disparity>& disparity, int width, const Gr
   Evaluation result;
   result.pixels = static_cast<std::int64_t>(disparity.size());
   for (std::size_t i = 0; i < disparity.size(); ++i) {
-    if (!is_scored(truth, i)) continue;
+    if (!truth.scored(i)) continue;
     ++result.scored;
     if (!disparity[i].valid()) continue;
     ++result.valid;
-    const int error = std::abs((disparity[i].value << kTruthShift) - truth.disparity[i]);
+    const int error = truth.error(i, disparity[i]);
     result.absolute_error += error;
     for (int limit = 1; limit <= Evaluation::kLimits; ++limit) {
-      result.bad[static_cast<std::size_t>(limit - 1)] += error > limit * kStepsPerPixel;
+      result.bad[static_cast<std::size_t>(limit - 1)] += error > limit * GroundTruth::kStepsPerPixel;
     }
   }
   return result;
@@ -106,7 +109,7 @@ double Evaluation::bad_share_all(int limit) const {
   return share(bad.at(static_cast<std::size_t>(limit - 1)) + scored - valid, scored);
 }
 
-double Evaluation::mean_error() const { return share(absolute_error, valid) / kStepsPerPixel; }
+double Evaluation::mean_error() const { return share(absolute_error, valid) / GroundTruth::kStepsPerPixel; }
 
 Evaluation& Evaluation::operator+=(const Evaluation& other) {
   pixels += other.pixels;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -12,10 +13,18 @@ namespace parallax {
 
 /// True disparities of the left image, for comparison.
 struct GroundTruth {
+  static constexpr int kStepsPerPixel = 256;
+
   int width = 0;
   int height = 0;
   std::vector<std::uint16_t> disparity;  ///< 1/256 px, 0 = unknown (the KITTI convention)
   std::vector<std::uint8_t> mask;        ///< 255 = score this pixel; empty: score all known ones
+
+  /// Whether the pixel (of width * height) counts: its disparity is known and the mask, if any, says 255.
+  bool scored(std::size_t pixel) const;
+
+  /// How far a valid disparity of a scored pixel is off, 1/256 px.
+  int error(std::size_t pixel, const Disparity& found) const;
 };
 
 /// Reads a 16-bit PNG (disparity * 256, 0 = unknown) and, if mask_path is not empty, an 8-bit mask (255 =
@@ -31,8 +40,7 @@ struct Quality {
   double value = 0;
 };
 
-/// How a disparity image compares with the ground truth. A pixel is scored if its true disparity is known and
-/// the mask, if any, says 255.
+/// How a disparity image compares with the ground truth.
 struct Evaluation {
   static constexpr int kLimits = 3;  ///< bad-1, bad-2, bad-3
 

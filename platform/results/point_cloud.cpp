@@ -12,11 +12,10 @@
 namespace parallax {
 namespace {
 
-void put_float(std::vector<unsigned char>& out, double value) {
-  const auto narrow = static_cast<float>(value);
+void put_float(std::vector<unsigned char>& out, float value) {
   std::uint32_t bits = 0;
-  static_assert(sizeof bits == sizeof narrow);
-  std::memcpy(&bits, &narrow, sizeof bits);
+  static_assert(sizeof bits == sizeof value);
+  std::memcpy(&bits, &value, sizeof bits);
   for (int shift = 0; shift < 32; shift += 8) {
     out.push_back(static_cast<unsigned char>((bits >> shift) & 0xFFu));
   }
@@ -37,8 +36,9 @@ std::vector<unsigned char> encode_point_cloud_ply(const DisparityView& map, cons
       if (!pixel.valid()) {
         continue;
       }
-      const cv::Vec4d h = q * cv::Vec4d(x, y, pixel.value / double{1 << kDisparityFractionBits}, 1);
-      const cv::Vec3d point(h[0] / h[3], h[1] / h[3], h[2] / h[3]);
+      const cv::Vec4d h = q * cv::Vec4d(x, y, in_pixels(pixel), 1);
+      const cv::Vec3f point(static_cast<float>(h[0] / h[3]), static_cast<float>(h[1] / h[3]),
+                            static_cast<float>(h[2] / h[3]));
       if (!std::isfinite(point[0]) || !std::isfinite(point[1]) || !std::isfinite(point[2])) {
         continue;
       }
@@ -50,7 +50,8 @@ std::vector<unsigned char> encode_point_cloud_ply(const DisparityView& map, cons
     }
   }
   const std::string header = fmt::format(
-      "ply\nformat binary_little_endian 1.0\ncomment unit: that of the calibration\nelement vertex {}\n"
+      "ply\nformat binary_little_endian 1.0\ncomment unit: that of the calibration\n"
+      "comment axes of the left camera: x right, y down, z forward\nelement vertex {}\n"
       "property float x\nproperty float y\nproperty float z\n"
       "property uchar red\nproperty uchar green\nproperty uchar blue\nend_header\n",
       count);

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <fstream>
+#include <iterator>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <vector>
@@ -31,7 +33,7 @@ struct PageImage {
 };
 constexpr PageImage kImages[] = {
     {"left_rectified.png", "Left image", "rectified"},
-    {"disparity_color.png", "Disparity", "blue is far, red is near"},
+    {"disparity_color.png", "Disparity", "far is blue, near is red"},
     {"causes.png", "Who invalidated what", "the stage that took a pixel's disparity away"},
     {"error.png", "Error against the ground truth", ""},
 };
@@ -49,6 +51,16 @@ std::vector<ReportImage> images_of(const fs::path& folder) {
     if (scale < 1) cv::resize(image, image, {}, scale, scale, cv::INTER_AREA);
     images.push_back({wanted.title, fmt::format("{}{}", wanted.caption, frame.empty() ? "" : ", first frame"),
                       "image/png", encode_png(image)});
+  }
+  // A strip is small, but grows with the frames.
+  constexpr std::uintmax_t kLargestStrip = 8 << 20;
+  const fs::path strip = folder / "strip.gif";
+  if (fs::exists(strip, error) && fs::file_size(strip, error) <= kLargestStrip) {
+    std::ifstream in(strip, std::ios::binary);
+    images.push_back({"All frames",
+                      "left image and disparity",
+                      "image/gif",
+                      {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()}});
   }
   return images;
 }

@@ -2,101 +2,53 @@
 #include "platform/results/result_images.hpp"
 
 #include <algorithm>
+#include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
-#include <opencv2/imgproc.hpp>
 #include <stdexcept>
 #include <string>
 
 namespace parallax {
 namespace {
 
-constexpr int kLegendRow = 24;      // px
-constexpr int kLegendColumn = 128;  // px: the longest name with its swatch
-constexpr double kTextScale = 0.4;  // of OpenCV's 21 px Hershey font
+const cv::Vec3b kInvalid(0, 0, 0);
+// Neither is near a colour of error_scale().
+const cv::Vec3b kInvalidError(230, 140, 60);
+const cv::Vec3b kNotScored(110, 110, 110);
 
-const cv::Scalar kTextColor(255, 255, 255);
-const cv::Scalar kLegendBackground(0, 0, 0);
-
-void put_text(cv::Mat& image, const std::string& text, const cv::Point& bottom_left) {
-  cv::putText(image, text, bottom_left, cv::FONT_HERSHEY_SIMPLEX, kTextScale, kTextColor, 1, cv::LINE_AA);
+/// The picture of a map: `color(pixel, index)` for each pixel.
+template <class Color>
+cv::Mat picture(const DisparityView& map, const Color& color) {
+  using Pixel = decltype(color(*map.pixels, std::size_t{0}));
+  cv::Mat_<Pixel> image(map.height, map.width);
+  Pixel* const out = image[0];
+  for (std::size_t i = 0; i < image.total(); ++i) out[i] = color(map.pixels[i], i);
+  return image;
 }
 
-int text_width(const std::string& text) {
-  int baseline = 0;
-  return cv::getTextSize(text, cv::FONT_HERSHEY_SIMPLEX, kTextScale, 1, &baseline).width;
-}
-
-/// The colour scale's 256 colours, far to near. The map's darkest blues are left out: they look like black,
-/// which means invalid.
-cv::Mat color_scale() {
-  cv::Mat ramp(1, 256, CV_8UC1);
-  for (int i = 0; i < 256; ++i) {
-    ramp.at<std::uint8_t>(0, i) = static_cast<std::uint8_t>(24 + i * (255 - 24) / 255);
-  }
-  cv::Mat colors;
-  cv::applyColorMap(ramp, colors, cv::COLORMAP_TURBO);
-  return colors;
-}
-
-/// Appends `rows` legend rows below the image and returns the whole.
-cv::Mat with_legend(const cv::Mat& image, int rows) {
-  cv::Mat result;
-  cv::copyMakeBorder(image, result, 0, rows * kLegendRow, 0, 0, cv::BORDER_CONSTANT, kLegendBackground);
-  return result;
-}
+cv::Vec3b color_of(const CauseStyle& style) { return {style.rgb[2], style.rgb[1], style.rgb[0]}; }
 
 }  // namespace
 
 std::vector<unsigned char> encode_png(const cv::Mat& image) {
   std::vector<unsigned char> bytes;
-  if (!cv::imencode(".png", image, bytes)) {
-    throw std::runtime_error("PNG encoder failed");
-  }
+  if (!cv::imencode(".png", image, bytes)) throw std::runtime_error("PNG encoder failed");
   return bytes;
 }
 
-std::vector<unsigned char> encode_disparity_png(const DisparityView& map) {
-  cv::Mat image(map.height, map.width, CV_16UC1, cv::Scalar(0));
-  for (int y = 0; y < map.height; ++y) {
-    auto* out = image.ptr<std::uint16_t>(y);
-    for (int x = 0; x < map.width; ++x) {
-      const Disparity& d = map.row(y)[x];
-      if (d.valid()) {
-        out[x] = static_cast<std::uint16_t>(std::max(1, d.value << (8 - kDisparityFractionBits)));
-      }
-    }
-  }
-  return encode_png(image);
+cv::Mat disparity_values(const DisparityView& map) {
+  return picture(map, [](const Disparity& d, std::size_t) {
+    if (!d.valid()) return std::uint16_t{0};
+    return static_cast<std::uint16_t>(std::max(1, d.value << (8 - kDisparityFractionBits)));
+  });
 }
 
-std::vector<unsigned char> encode_disparity_color_png(const DisparityView& map, const ColorRange& range) {
-  const cv::Mat colors = color_scale();
-  const double low = range.lowest * double{1 << kDisparityFractionBits};
-  const double span = std::max(1, range.highest - range.lowest) * double{1 << kDisparityFractionBits};
-  cv::Mat image(map.height, map.width, CV_8UC3, kLegendBackground);
-  for (int y = 0; y < map.height; ++y) {
-    auto* out = image.ptr<cv::Vec3b>(y);
-    for (int x = 0; x < map.width; ++x) {
-      const Disparity& d = map.row(y)[x];
-      if (d.valid()) {
-        out[x] =
-            colors.at<cv::Vec3b>(0, static_cast<int>(std::clamp((d.value - low) / span, 0.0, 1.0) * 255));
-      }
-    }
-  }
-  const std::string left = std::to_string(range.lowest) + " px";
-  const std::string right = std::to_string(range.highest) + " px, black: invalid";
-  const int from = text_width(left) + 12;
-  const int to = map.width - text_width(right) - 12;
-  if (to - from < 32) {
-    return encode_png(image);
-  }
-  image = with_legend(image, 1);
-  cv::Mat bar = image(cv::Rect(from, map.height + 5, to - from, kLegendRow - 10));
-  cv::resize(colors, bar, bar.size(), 0, 0, cv::INTER_LINEAR);
-  put_text(image, left, {6, map.height + 16});
-  put_text(image, right, {to + 6, map.height + 16});
-  return encode_png(image);
+cv::Mat disparity_colors(const DisparityView& map, const ColorScale& scale) {
+  return picture(
+      map, [&](const Disparity& d, std::size_t) { return d.valid() ? scale.color(in_pixels(d)) : kInvalid; });
+}
+
+Legend disparity_legend(const ColorScale& scale) {
+  return {LegendScale{"disparity, px", scale}, {{"invalid", kInvalid}}};
 }
 
 const std::array<CauseStyle, 8>& cause_styles() {
@@ -113,41 +65,38 @@ const std::array<CauseStyle, 8>& cause_styles() {
   return styles;
 }
 
-std::vector<unsigned char> encode_causes_png(const DisparityView& map) {
-  const auto& styles = cause_styles();
-  const auto bgr = [&](Cause cause) {
-    const auto& rgb = styles.at(static_cast<std::size_t>(cause)).rgb;
-    return cv::Vec3b(rgb[2], rgb[1], rgb[0]);
-  };
-  cv::Mat image(map.height, map.width, CV_8UC3);
-  for (int y = 0; y < map.height; ++y) {
-    auto* out = image.ptr<cv::Vec3b>(y);
-    std::transform(map.row(y), map.row(y) + map.width, out, [&](const Disparity& d) { return bgr(d.cause); });
-  }
-  const int columns = std::min(map.width / kLegendColumn, static_cast<int>(styles.size()));
-  if (columns < 1) {
-    return encode_png(image);
-  }
-  const int count = static_cast<int>(styles.size());
-  image = with_legend(image, (count + columns - 1) / columns);
-  for (int i = 0; i < count; ++i) {
-    const CauseStyle& style = styles[static_cast<std::size_t>(i)];
-    const cv::Point corner(i % columns * kLegendColumn + 6, map.height + i / columns * kLegendRow + 5);
-    const cv::Rect swatch(corner, cv::Size(14, 14));
-    cv::rectangle(image, swatch, cv::Scalar(bgr(style.cause)), cv::FILLED);
-    cv::rectangle(image, swatch, kTextColor);  // so that black shows on black
-    put_text(image, std::string(style.name), corner + cv::Point(20, 11));
-  }
-  return encode_png(image);
+cv::Mat cause_colors(const DisparityView& map) {
+  return picture(map, [](const Disparity& d, std::size_t) {
+    return color_of(cause_styles().at(static_cast<std::size_t>(d.cause)));
+  });
 }
 
-std::vector<unsigned char> encode_cause_labels_png(const DisparityView& map) {
-  cv::Mat image(map.height, map.width, CV_8UC1);
-  for (int y = 0; y < map.height; ++y) {
-    std::transform(map.row(y), map.row(y) + map.width, image.ptr<std::uint8_t>(y),
-                   [](const Disparity& d) { return static_cast<std::uint8_t>(d.cause); });
+Legend cause_legend() {
+  Legend legend;
+  for (const CauseStyle& style : cause_styles()) {
+    legend.entries.push_back({std::string(style.name), color_of(style)});
   }
-  return encode_png(image);
+  return legend;
+}
+
+cv::Mat cause_labels(const DisparityView& map) {
+  return picture(map, [](const Disparity& d, std::size_t) { return static_cast<std::uint8_t>(d.cause); });
+}
+
+cv::Mat error_colors(const DisparityView& map, const GroundTruth& truth) {
+  if (truth.width != map.width || truth.height != map.height) {
+    throw std::invalid_argument("the ground truth is not of the disparity map's size");
+  }
+  const ColorScale scale = error_scale();
+  return picture(map, [&](const Disparity& d, std::size_t i) {
+    if (!truth.scored(i)) return kNotScored;
+    return d.valid() ? scale.color(truth.error(i, d) / double{GroundTruth::kStepsPerPixel}) : kInvalidError;
+  });
+}
+
+Legend error_legend() {
+  return {LegendScale{"error, px", error_scale(), true},
+          {{"invalid", kInvalidError}, {"not scored", kNotScored}}};
 }
 
 }  // namespace parallax

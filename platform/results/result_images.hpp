@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The results as pictures: each function returns the bytes of a PNG file.
+// The results as pictures.
 #pragma once
 
 #include <array>
@@ -9,28 +9,25 @@
 #include <vector>
 
 #include "modules/pixel.hpp"
+#include "platform/results/color_scale.hpp"
 #include "platform/results/disparity_view.hpp"
+#include "platform/results/evaluation.hpp"
+#include "platform/results/legend.hpp"
 
 namespace parallax {
 
-/// A CV_8UC1, CV_16UC1 or CV_8UC3 (BGR) image.
+/// The bytes of a PNG file of a CV_8UC1, CV_16UC1 or CV_8UC3 (BGR) image.
 std::vector<unsigned char> encode_png(const cv::Mat& image);
 
-/// disparity.png: 16 bit, value = disparity * 256, 0 = invalid (the KITTI convention). A valid disparity of
-/// exactly 0 would read as invalid and is written as 1, that is 1/256 px.
-std::vector<unsigned char> encode_disparity_png(const DisparityView& map);
+/// disparity.png, CV_16UC1: value = disparity * 256, 0 = invalid (the KITTI convention). A valid disparity of
+/// exactly 0 would read as invalid and is 1, that is 1/256 px.
+cv::Mat disparity_values(const DisparityView& map);
 
-/// The disparities at the ends of the colour scale, px.
-struct ColorRange {
-  int lowest = 0;     ///< blue: disparity offset
-  int highest = 255;  ///< red: disparity offset + range - 1
-};
+/// The disparities in the colours of the scale, invalid ones black: CV_8UC3 (BGR) of the map's size.
+cv::Mat disparity_colors(const DisparityView& map, const ColorScale& scale);
+Legend disparity_legend(const ColorScale& scale);
 
-/// disparity_color.png: far is blue, near is red, invalid is black. Below the map, where it is wide enough
-/// for text, a strip of 24 rows shows the scale.
-std::vector<unsigned char> encode_disparity_color_png(const DisparityView& map, const ColorRange& range);
-
-/// What a cause looks like in causes.png.
+/// What a cause looks like.
 struct CauseStyle {
   Cause cause;
   std::string_view name;
@@ -38,11 +35,17 @@ struct CauseStyle {
 };
 const std::array<CauseStyle, 8>& cause_styles();
 
-/// causes.png: the colour of each pixel's cause; below the map, where it is wide enough for text, their
-/// names.
-std::vector<unsigned char> encode_causes_png(const DisparityView& map);
+/// The colour of each pixel's cause: CV_8UC3 (BGR) of the map's size.
+cv::Mat cause_colors(const DisparityView& map);
+Legend cause_legend();
 
-/// cause_labels.png, for programs: 8 bit, value = number of the Cause.
-std::vector<unsigned char> encode_cause_labels_png(const DisparityView& map);
+/// cause_labels.png, for programs, CV_8UC1: value = number of the Cause.
+cv::Mat cause_labels(const DisparityView& map);
+
+/// How far each scored pixel is off, in the colours of error_scale(): CV_8UC3 (BGR) of the map's size.
+/// Invalid pixels, and those that are not scored, have colours of their own, which the legend names. Throws
+/// std::invalid_argument if the ground truth is of another size.
+cv::Mat error_colors(const DisparityView& map, const GroundTruth& truth);
+Legend error_legend();
 
 }  // namespace parallax

@@ -34,12 +34,12 @@ TEST_P(Interrupted, FinishedFramesStayAndNothingElse) {
   EXPECT_EQ(outcome.out, "");
   int frames = 0;
   while (std::filesystem::exists(program / fmt::format("out/frame_{:04}", frames))) {
-    EXPECT_EQ(program.files(fmt::format("out/frame_{:04}", frames)).size(), 7U);
+    EXPECT_EQ(program.files(fmt::format("out/frame_{:04}", frames)).size(), 9U);
     ++frames;
   }
   EXPECT_GE(frames, 3);
   EXPECT_EQ(outcome.err, fmt::format("parallax: interrupted after {} frames\n", frames));
-  EXPECT_EQ(program.files("out").size(), static_cast<std::size_t>(frames) * 8);
+  EXPECT_EQ(program.files("out").size(), static_cast<std::size_t>(frames) * 10) << "and no strip.gif";
 }
 
 INSTANTIATE_TEST_SUITE_P(By, Interrupted, ::testing::Values(SIGINT, SIGTERM));

@@ -114,6 +114,10 @@ TEST(Readme, TheGlossaryNamesEveryMetricAndNoOther) {
   ASSERT_EQ(run_in(folder, "parallax run --size 320x240 -d 64 --json", output), 0) << output;
   std::map<std::string, std::string> units;
   collect(nlohmann::json::parse(output), "", units);
+  ASSERT_EQ(
+      run_in(folder, "parallax run --size 96x64 --set streams.left_output.depth=4 --json 2>stuck", output),
+      1);
+  collect(nlohmann::json::parse(output), "", units);
   const std::vector<GlossaryEntry> glossary = glossary_of(read_text(kSource + "/README.md"));
   for (const auto& [name, unit] : units) {
     const auto entry = std::find_if(glossary.begin(), glossary.end(),

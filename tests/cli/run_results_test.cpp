@@ -3,12 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstring>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
 #include "platform/results/disparity_bin.hpp"
+#include "platform/results/result_images.hpp"
 #include "tests/cli/program.hpp"
 
 namespace parallax {
@@ -16,8 +18,16 @@ namespace {
 
 using nlohmann::json;
 
-const std::vector<std::string> kFrameFiles{"cause_labels.png", "causes.png",          "disparity.bin",
-                                           "disparity.png",    "disparity_color.png", "left_rectified.png"};
+/// Of a frame with or without what needs ground truth and a calibration, after `folder`.
+std::vector<std::string> frame_files(bool truth, bool points, const std::string& folder = "") {
+  std::vector<std::string> files;
+  for (const std::string name :
+       {"cause_labels.png", "causes.png", "disparity.bin", "disparity.png", "disparity_color.png",
+        "error.png", "left_rectified.png", "points.ply", "side_by_side.png"}) {
+    if ((truth || name != "error.png") && (points || name != "points.ply")) files.push_back(folder + name);
+  }
+  return files;
+}
 
 class RunResults : public ::testing::Test {
  protected:
@@ -50,6 +60,7 @@ class RunResults : public ::testing::Test {
     EXPECT_EQ(image(folder + "left_rectified.png").type(), CV_8UC1);
     EXPECT_EQ(image(folder + "disparity_color.png").cols, width);
     EXPECT_EQ(image(folder + "causes.png").cols, width);
+    EXPECT_EQ(image(folder + "side_by_side.png").cols, 2 * width + 8);
     const std::vector<std::uint16_t> values = disparities(folder + "disparity.bin", width, height);
     for (int y = 0; y < height; ++y) {
       for (int x = 0; x < width; ++x) {
@@ -60,6 +71,64 @@ class RunResults : public ::testing::Test {
         ASSERT_EQ(value != 0xFFF, cause == Cause::kMatched || cause == Cause::kInterpolated) << x << ' ' << y;
       }
     }
+  }
+
+  /// error.png against what is beside it.
+  void check_error(const std::string& truth_name, const std::string& mask_name,
+                   const std::string& folder) const {
+    const cv::Mat truth = image(truth_name), mask = image(mask_name);
+    const cv::Mat found = image(folder + "disparity.png"), error = image(folder + "error.png");
+    const Legend legend = error_legend();
+    int kinds[3] = {};
+    for (int y = 0; y < truth.rows; ++y) {
+      for (int x = 0; x < truth.cols; ++x) {
+        const int right = truth.at<std::uint16_t>(y, x), value = found.at<std::uint16_t>(y, x);
+        const bool scored = right != 0 && mask.at<std::uint8_t>(y, x) == 255;
+        const int kind = !scored ? 0 : value == 0 ? 1 : 2;
+        ++kinds[kind];
+        const cv::Vec3b expected = kind == 0   ? legend.entries[1].color
+                                   : kind == 1 ? legend.entries[0].color
+                                               : error_scale().color(std::abs(right - value) / 256.0);
+        ASSERT_EQ(error.at<cv::Vec3b>(y, x), expected) << x << ' ' << y;
+      }
+    }
+    for (const int pixels : kinds) EXPECT_GT(pixels, 20);
+  }
+
+  /// points.ply against disparity.png and the cameras' projections: u = P1 (X, Y, Z, 1), d = u_left -
+  /// u_right.
+  void check_points(const std::string& calibration, const std::string& folder) const {
+    cv::FileStorage file((program_ / calibration).string(), cv::FileStorage::READ);
+    cv::Mat p1, p2;
+    file["P1"] >> p1;
+    file["P2"] >> p2;
+    const double f = p1.at<double>(0, 0), cx = p1.at<double>(0, 2), cy = p1.at<double>(1, 2);
+    const double shift = cx - p2.at<double>(0, 2), baseline = -p2.at<double>(0, 3) / f;
+    const cv::Mat disparities = image(folder + "disparity.png"), left = image(folder + "left_rectified.png");
+    const std::string ply = program_.read(folder + "points.ply");
+    const std::string end = "end_header\n";
+    const char* next = ply.data() + ply.find(end) + end.size();
+    int points = 0;
+    for (int y = 0; y < disparities.rows; ++y) {
+      for (int x = 0; x < disparities.cols; ++x) {
+        const int value = disparities.at<std::uint16_t>(y, x);
+        if (value <= 1 || value / 256.0 == shift) continue;  // invalid, or at infinity
+        const double z = f * baseline / (value / 256.0 - shift);
+        ASSERT_LE(next + 15, ply.data() + ply.size());
+        float point[3];
+        std::memcpy(point, next, sizeof point);
+        EXPECT_NEAR(point[0], (x - cx) * z / f, 1e-5 * std::abs(z));
+        EXPECT_NEAR(point[1], (y - cy) * z / f, 1e-5 * std::abs(z));
+        EXPECT_NEAR(point[2], z, 1e-5 * std::abs(z));
+        for (int channel = 12; channel < 15; ++channel) {
+          ASSERT_EQ(static_cast<unsigned char>(next[channel]), left.at<std::uint8_t>(y, x));
+        }
+        next += 15;
+        ++points;
+      }
+    }
+    EXPECT_EQ(next, ply.data() + ply.size());
+    EXPECT_GT(points, 1000);
   }
 
   json timing(const std::string& folder) const { return json::parse(program_.read(folder + "timing.json")); }
@@ -96,8 +165,9 @@ void check_metrics(const json& tree, const std::string& path) {
 
 TEST_F(RunResults, OfTheBuiltInScene) {
   const test::Outcome outcome = run("--size 96x64 --seed 7 --out out");
-  std::vector<std::string> expected = kFrameFiles;
-  expected.insert(expected.end(), {"points.ply", "timing.json"});
+  std::vector<std::string> expected = frame_files(true, true);
+  expected.insert(expected.end(), {"profile.json", "timing.json"});
+  std::sort(expected.begin(), expected.end());
   EXPECT_EQ(program_.files("out"), expected);
   check_frame("out/", 96, 64);
   const std::string ply = program_.read("out/points.ply");
@@ -125,10 +195,12 @@ TEST_F(RunResults, OfASinglePair) {
   ASSERT_EQ(program_("scene --size 96x64 --disparities 32 --rectified --out in").code, 0);
   run("--left in/left.png --right in/right.png --ground-truth in/disp_gt.png --mask in/mask_nocc.png --out "
       "out");
-  std::vector<std::string> expected = kFrameFiles;
-  expected.push_back("timing.json");
+  std::vector<std::string> expected = frame_files(true, false);
+  expected.insert(expected.end(), {"profile.json", "timing.json"});
+  std::sort(expected.begin(), expected.end());
   EXPECT_EQ(program_.files("out"), expected) << "without a calibration there are no points";
   check_frame("out/", 96, 64);
+  check_error("in/disp_gt.png", "in/mask_nocc.png", "out/");
   const json tree = timing("out/");
   check_metrics(tree, "");
   EXPECT_FALSE(tree["run"].contains("seed"));
@@ -141,12 +213,13 @@ TEST_F(RunResults, OfASequence) {
   std::vector<std::string> expected;
   for (const std::string folder : {"frame_0000/", "frame_0001/", "frame_0002/"}) {
     expected.push_back(folder);
-    for (const std::string& file : kFrameFiles) expected.push_back(folder + file);
-    expected.push_back(folder + "points.ply");
+    for (const std::string& file : frame_files(false, true, folder)) expected.push_back(file);
     check_frame("out/" + folder, 96, 64);
+    check_points("in/calib.yml", "out/" + folder);
   }
-  expected.push_back("timing.json");
+  expected.insert(expected.end(), {"profile.json", "strip.gif", "timing.json"});
   EXPECT_EQ(program_.files("out"), expected);
+  EXPECT_EQ(program_.read("out/strip.gif").substr(0, 6), "GIF89a");
   const json tree = timing("out/");
   check_metrics(tree, "");
   EXPECT_EQ(tree["input"]["frames_with_images"]["value"], 3);
@@ -171,7 +244,7 @@ TEST_F(RunResults, TheSameInputGivesTheSameBytes) {
     return contents;
   };
   const auto first = results();
-  EXPECT_EQ(first.size(), 2 * 7U + 1);
+  EXPECT_EQ(first.size(), 2 * 9U + 3);
   EXPECT_TRUE(first == results());
 }
 
@@ -191,7 +264,22 @@ TEST_F(RunResults, MemoryStaysFlatOverASequence) {
     return timing("out/")["run"]["peak_memory"]["value"].get<double>();
   };
   EXPECT_LT(peak(100), peak(10) + 4.0);
-  EXPECT_EQ(program_.files("out").size(), 100 * 8U + 1);
+  EXPECT_EQ(program_.files("out").size(), 100 * 10U + 3);
+}
+
+TEST_F(RunResults, StripThatDoesNotFitLeavesTheFramesOnly) {
+  // A limit on the files' size, above that of any file of a frame.
+  const test::Outcome outcome = program_("run --disparities 32 --size 96x64 --frames 40 --out out", [] {
+    std::signal(SIGXFSZ, SIG_IGN);
+    const rlimit small{150'000, 150'000};
+    ::setrlimit(RLIMIT_FSIZE, &small);
+  });
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_EQ(outcome.err, "parallax: error: cannot write out/strip.gif: File too large\n");
+  const std::vector<std::string> files = program_.files("out");
+  EXPECT_GT(files.size(), 5 * 10U);
+  EXPECT_EQ(files.size() % 10, 0U) << "whole frames";
+  for (const std::string& file : files) EXPECT_EQ(file.rfind("frame_", 0), 0U) << file;
 }
 
 TEST_F(RunResults, JsonIsAllThatJsonPrints) {

@@ -12,22 +12,15 @@
 #include "platform/results/point_cloud.hpp"
 #include "platform/results/result_images.hpp"
 #include "platform/scene/scene_hash.hpp"
+#include "python.hpp"
+#include "random_map.hpp"
 #include "temporary_folder.hpp"
 #include "tlm/error.hpp"
 
 namespace parallax {
 namespace {
 
-std::vector<Disparity> random_map(int width, int height, std::uint64_t seed) {
-  std::vector<Disparity> map(static_cast<std::size_t>(width * height));
-  for (std::size_t i = 0; i < map.size(); ++i) {
-    const std::uint64_t random = scene_hash(seed, i);
-    map[i].cause = static_cast<Cause>(random & 7);
-    map[i].value = map[i].cause <= Cause::kInterpolated ? static_cast<std::uint16_t>((random >> 8) % 0xFFF)
-                                                        : kInvalidDisparity;
-  }
-  return map;
-}
+using test::random_map;
 
 cv::Mat decoded(const std::vector<unsigned char>& bytes) { return cv::imdecode(bytes, cv::IMREAD_UNCHANGED); }
 
@@ -81,7 +74,7 @@ TEST(DisparityPng, KittiConvention) {
   map[0] = {0, Cause::kMatched};
   map[1] = {1, Cause::kMatched};
   map[2] = {0xFFE, Cause::kMatched};
-  const cv::Mat image = decoded(encode_disparity_png({map, width, height}));
+  const cv::Mat image = decoded(encode_png(disparity_values({map, width, height})));
   ASSERT_EQ(image.size(), cv::Size(width, height));
   ASSERT_EQ(image.type(), CV_16UC1);
   EXPECT_EQ(image.at<std::uint16_t>(0, 0), 1) << "disparity 0 is valid";
@@ -97,49 +90,82 @@ TEST(DisparityPng, KittiConvention) {
   }
 }
 
-TEST(DisparityColorPng, ScaleInvalidAndLegend) {
+TEST(DisparityColors, EachPixelOnTheScale) {
   const int width = 320, height = 40;
   std::vector<Disparity> map(static_cast<std::size_t>(width * height));
   for (int i = 0; i < width; ++i) {
-    map[static_cast<std::size_t>(i)] = {static_cast<std::uint16_t>(16 * (64 + i * 128 / width)),
+    map[static_cast<std::size_t>(i)] = {static_cast<std::uint16_t>(16 * 64 + i * 16 * 127 / (width - 1)),
                                         Cause::kMatched};
   }
-  const cv::Mat image = decoded(encode_disparity_color_png({map, width, height}, {64, 191}));
+  const ColorScale scale = disparity_scale(64, 191);
+  const cv::Mat image = disparity_colors({map, width, height}, scale);
   ASSERT_EQ(image.type(), CV_8UC3);
-  ASSERT_EQ(image.size(), cv::Size(width, height + 24));
+  ASSERT_EQ(image.size(), cv::Size(width, height));
+  for (int x = 0; x < width; ++x) {
+    const double share = (map[static_cast<std::size_t>(x)].value / 16.0 - 64) / 127;
+    ASSERT_EQ(image.at<cv::Vec3b>(0, x), scale.colors()[static_cast<std::size_t>(share * 255 + 0.5)]) << x;
+    ASSERT_EQ(image.at<cv::Vec3b>(1, x), cv::Vec3b(0, 0, 0)) << "invalid";
+  }
   const auto far = image.at<cv::Vec3b>(0, 20);
   const auto near = image.at<cv::Vec3b>(0, width - 20);
-  EXPECT_GT(far[0], far[2]);
-  EXPECT_GT(near[2], near[0]);
-  EXPECT_EQ(image.at<cv::Vec3b>(1, 5), cv::Vec3b(0, 0, 0));
-  for (int x = 0; x < width; ++x) {
-    ASSERT_NE(image.at<cv::Vec3b>(0, x), cv::Vec3b(0, 0, 0)) << "a valid pixel looks invalid";
-  }
-  EXPECT_GT(cv::mean(image(cv::Rect(0, height, width, 24)))[1], 10) << "the legend is empty";
+  EXPECT_GT(far[0], far[2]) << "blue";
+  EXPECT_GT(near[2], near[0]) << "red";
 }
 
-TEST(DisparityColorPng, NarrowMapHasNoLegend) {
-  const std::vector<Disparity> map(3 * 2);
-  EXPECT_EQ(decoded(encode_disparity_color_png({map, 3, 2}, {0, 0})).size(), cv::Size(3, 2));
-}
-
-TEST(CausesPng, ColourAndLabel) {
+TEST(CauseColors, ColourAndLabel) {
   const int width = 320, height = 20;
   const std::vector<Disparity> map = random_map(width, height, 9);
-  const cv::Mat colour = decoded(encode_causes_png({map, width, height}));
-  const cv::Mat labels = decoded(encode_cause_labels_png({map, width, height}));
+  const cv::Mat colour = cause_colors({map, width, height});
+  const cv::Mat labels = decoded(encode_png(cause_labels({map, width, height})));
   ASSERT_EQ(labels.size(), cv::Size(width, height));
   ASSERT_EQ(labels.type(), CV_8UC1);
-  ASSERT_EQ(colour.size(), cv::Size(width, height + 4 * 24)) << "eight names in two columns";
+  ASSERT_EQ(colour.size(), cv::Size(width, height));
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       const auto cause = static_cast<std::size_t>(map[static_cast<std::size_t>(y * width + x)].cause);
       ASSERT_EQ(labels.at<std::uint8_t>(y, x), cause);
       const auto& rgb = cause_styles()[cause].rgb;
       ASSERT_EQ(colour.at<cv::Vec3b>(y, x), cv::Vec3b(rgb[2], rgb[1], rgb[0]));
+      EXPECT_EQ(cause_legend().entries[cause].color, colour.at<cv::Vec3b>(y, x));
+      EXPECT_EQ(cause_legend().entries[cause].name, cause_styles()[cause].name);
     }
   }
-  EXPECT_EQ(decoded(encode_causes_png({random_map(5, 5, 1), 5, 5})).size(), cv::Size(5, 5));
+}
+
+TEST(ErrorColors, ErrorsInvalidAndNotScored) {
+  const auto found = [](int sixteenths) {
+    return Disparity{static_cast<std::uint16_t>(sixteenths), Cause::kMatched};
+  };
+  const Disparity none{kInvalidDisparity, Cause::kTexture};
+  //                              right, 1 px less, 2.5 px more, 40 px more, invalid, unknown, both, masked
+  const std::vector<Disparity> map{found(320), found(304), found(360), found(960),
+                                   none,       found(320), none,       found(320)};
+  const std::uint16_t t = 20 * 256;
+  const GroundTruth truth{8, 1, {t, t, t, t, t, 0, 0, t}, {255, 255, 255, 255, 255, 255, 255, 0}};
+  const cv::Mat image = error_colors({map, 8, 1}, truth);
+  ASSERT_EQ(image.size(), cv::Size(8, 1));
+  const auto pixel = [&](int x) { return image.at<cv::Vec3b>(0, x); };
+  const ColorScale scale = error_scale();
+  EXPECT_EQ(pixel(0), scale.color(0));
+  EXPECT_EQ(pixel(1), scale.color(1));
+  EXPECT_EQ(pixel(2), scale.color(2.5));
+  EXPECT_EQ(pixel(3), scale.color(5));
+  const Legend legend = error_legend();
+  ASSERT_EQ(legend.entries.size(), 2U);
+  EXPECT_EQ(legend.entries[0].name, "invalid");
+  EXPECT_EQ(pixel(4), legend.entries[0].color);
+  EXPECT_EQ(legend.entries[1].name, "not scored");
+  for (const int x : {5, 6, 7}) EXPECT_EQ(pixel(x), legend.entries[1].color) << x;
+  EXPECT_THROW(error_colors({map, 4, 2}, truth), std::invalid_argument);
+}
+
+TEST(ErrorColors, WhatHasNoErrorIsNotTakenForOne) {
+  const Legend legend = error_legend();
+  for (const LegendEntry& entry : legend.entries) {
+    for (const cv::Vec3b& color : legend.scale->colors.colors()) {
+      EXPECT_GT(cv::norm(entry.color, color), 60) << entry.name;
+    }
+  }
 }
 
 TEST(CausesPng, EveryCauseHasItsOwnStyle) {
@@ -170,19 +196,15 @@ std::vector<Vertex> parse_ply(const std::vector<unsigned char>& bytes) {
   const std::string text(bytes.begin(), bytes.end());
   const std::size_t body = text.find("end_header\n") + 11;
   std::istringstream header(text.substr(0, body));
-  std::string line;
-  std::getline(header, line);
-  EXPECT_EQ(line, "ply");
-  std::getline(header, line);
-  EXPECT_EQ(line, "format binary_little_endian 1.0");
-  std::size_t count = 0;
-  std::vector<std::string> properties;
-  while (std::getline(header, line)) {
-    if (line.rfind("element vertex ", 0) == 0) count = std::stoul(line.substr(15));
-    if (line.rfind("property ", 0) == 0) properties.push_back(line.substr(9));
-  }
-  EXPECT_EQ(properties, (std::vector<std::string>{"float x", "float y", "float z", "uchar red", "uchar green",
-                                                  "uchar blue"}));
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(header, line);) lines.push_back(line);
+  const std::size_t count = std::stoul(lines.at(4).substr(15));
+  EXPECT_EQ(lines, (std::vector<std::string>{"ply", "format binary_little_endian 1.0",
+                                             "comment unit: that of the calibration",
+                                             "comment axes of the left camera: x right, y down, z forward",
+                                             "element vertex " + std::to_string(count), "property float x",
+                                             "property float y", "property float z", "property uchar red",
+                                             "property uchar green", "property uchar blue", "end_header"}));
   EXPECT_EQ(bytes.size(), body + 15 * count);
   std::vector<Vertex> vertices;
   for (std::size_t i = 0; i < count; ++i) {
@@ -222,6 +244,46 @@ TEST(PointCloud, VerticesAreTheReprojectedPixels) {
     EXPECT_EQ(v.grey, i & 255);
   }
   EXPECT_EQ(next, vertices.size());
+}
+
+TEST(PointCloud, AnotherReaderSeesThePoints) {
+  if (!test::python_has("meshio")) GTEST_SKIP() << "no python3-meshio";
+  const int width = 33, height = 17;
+  const std::vector<Disparity> map = random_map(width, height, 13);
+  const cv::Matx44d q(1, 0, 0, -16, 0, 1, 0, -8, 0, 0, 0, 500, 0, 0, 1 / 0.12, 0);
+  const std::vector<unsigned char> bytes =
+      encode_point_cloud_ply({map, width, height}, cv::Mat(height, width, CV_8UC1, cv::Scalar(77)), q);
+  const TemporaryFolder folder;
+  folder.write("points.ply", {bytes.begin(), bytes.end()});
+  std::istringstream printed(test::python(folder, R"(
+import meshio
+mesh = meshio.read("points.ply")
+print(*[mesh.point_data[channel].tolist() == [77] * len(mesh.points) for channel in ("red", "green", "blue")])
+for point in mesh.points:
+    print(*[float(axis).hex() for axis in point])
+)"));
+  std::string line;
+  std::getline(printed, line);
+  EXPECT_EQ(line, "True True True");
+  const std::vector<Vertex> vertices = parse_ply(bytes);
+  EXPECT_GT(vertices.size(), 50U);
+  for (const Vertex& vertex : vertices) {
+    std::string x, y, z;
+    printed >> x >> y >> z;
+    ASSERT_EQ(std::stof(x), vertex.x);
+    ASSERT_EQ(std::stof(y), vertex.y);
+    ASSERT_EQ(std::stof(z), vertex.z);
+  }
+  EXPECT_FALSE(printed >> line) << "more points";
+}
+
+TEST(PointCloud, OnlyWhatAFloatCanHold) {
+  const std::vector<Disparity> map{{16, Cause::kMatched}, {32, Cause::kMatched}};
+  const cv::Mat left(1, 2, CV_8UC1, cv::Scalar(0));
+  cv::Matx44d q = cv::Matx44d::eye();
+  q(2, 3) = 1e39;  // z beyond the largest float
+  EXPECT_TRUE(parse_ply(encode_point_cloud_ply({map, 2, 1}, left, q)).empty());
+  EXPECT_TRUE(parse_ply(encode_point_cloud_ply({map, 2, 1}, left, cv::Matx44d::zeros())).empty()) << "0 / 0";
 }
 
 TEST(PointCloud, NoValidPixelIsAnEmptyCloud) {
