@@ -85,7 +85,7 @@ TEST_F(TimingOnly, TheMapsBytesChangeTheTime) {
 TEST_F(TimingOnly, WritesTheTimingAlone) {
   const test::Outcome outcome = program_("run --timing-only --size 64x48 -d 32 --frames 2 --out out");
   EXPECT_EQ(outcome.code, 0) << outcome.err;
-  EXPECT_EQ(program_.files("out"), std::vector<std::string>{"timing.json"});
+  EXPECT_EQ(program_.files("out"), (std::vector<std::string>{"profile.json", "timing.json"}));
   EXPECT_EQ(outcome.out.find("valid pixels"), std::string::npos) << outcome.out;
   EXPECT_NE(outcome.out.find("frame rate"), std::string::npos) << outcome.out;
 }
