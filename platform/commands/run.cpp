@@ -9,6 +9,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "platform/commands/command_context.hpp"
@@ -227,6 +228,9 @@ class Run {
     input.width = size_.width;
     input.height = size_.height;
     input.map = &rectification_.map;
+    // No longer than this run, and no longer than the steady state takes.
+    input.timing_frames =
+        std::min(total_frames_, frames_to_simulate(configuration_.machine, 1, std::nullopt));
     return input;
   }
 

@@ -15,7 +15,7 @@ using nlohmann::json;
 class TimingOnly : public ::testing::Test {
  protected:
   json run(const std::string& arguments) const {
-    const test::Outcome outcome = program_("run -q --json " + arguments);
+    const test::Outcome outcome = program_("run -q --json --no-verdict " + arguments);
     EXPECT_EQ(outcome.code, 0) << outcome.err;
     return json::parse(outcome.out, nullptr, false);
   }

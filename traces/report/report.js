@@ -67,7 +67,7 @@
           datasets: [{ label: "share of the time, %", backgroundColor: color("busy"),
             data: cycles.map((x) => 100 * x / all) }] },
         options: { plugins: { legend: { display: false } },
-          scales: { x: axis("tokens held, of " + value(stream.depth)), y: axis("share of the time, %", { beginAtZero: true }) } },
+          scales: { x: axis("tokens held in " + streams.value + ", of " + value(stream.depth)), y: axis("share of the time, %", { beginAtZero: true }) } },
       };
     };
     chart("chart-fifo", fifo);
@@ -111,7 +111,7 @@
         data: { labels: counts.at_most.map((x) => number(x / scale, frames ? 3 : 1)),
           datasets: [{ label: frames ? "frames" : "bursts", data: counts.count, backgroundColor: color("busy") }] },
         options: { plugins: { legend: { display: false } },
-          scales: { x: axis("at most, " + (frames ? "ms" : "ns"), { ticks: { maxTicksLimit: 16 } }),
+          scales: { x: axis(spans.value.replace(/_/g, " ") + ": at most, " + (frames ? "ms" : "ns"), { ticks: { maxTicksLimit: 16 } }),
             y: axis(frames ? "frames" : "bursts", { beginAtZero: true }) } },
       };
     });
