@@ -12,25 +12,25 @@ namespace {
 class Members {
  public:
   explicit Members(TextBuffer& out) : out_(out) {}
-  void text(const char* name, std::string_view value) {
+  void text(std::string_view name, std::string_view value) {
     put(name);
     out_.add('"');
     out_.add(value);
     out_.add('"');
   }
-  void number(const char* name, std::int64_t value) {
+  void number(std::string_view name, std::int64_t value) {
     put(name);
     out_.add(value);
   }
-  void flag(const char* name, bool value) {
+  void flag(std::string_view name, bool value) {
     put(name);
     out_.add(std::string_view(value ? "true" : "false"));
   }
 
  private:
-  void put(const char* name) {
+  void put(std::string_view name) {
     out_.add(std::string_view(",\""));
-    out_.add(std::string_view(name));
+    out_.add(name);
     out_.add(std::string_view("\":"));
   }
   TextBuffer& out_;
@@ -41,7 +41,8 @@ class Members {
 void JsonTrace::begin(const TraceParts& parts) {
   parts_ = parts;
   auto stages = nlohmann::ordered_json::array();
-  for (const TraceParts::StagePart& stage : parts.stages) stages.push_back({{"name", stage.name}, {"path", stage.path}});
+  for (const TraceParts::StagePart& stage : parts.stages)
+    stages.push_back({{"name", stage.name}, {"path", stage.path}});
   auto streams = nlohmann::ordered_json::array();
   for (const TraceParts::StreamPart& stream : parts.streams) {
     streams.push_back({{"name", stream.name},
@@ -52,8 +53,9 @@ void JsonTrace::begin(const TraceParts& parts) {
                        {"reader", stream.reader}});
   }
   auto ports = nlohmann::ordered_json::array();
-  for (const TraceParts::PortPart& port : parts.ports) ports.push_back({{"name", port.name}, {"path", port.path}});
-  const nlohmann::ordered_json head{{"time_unit", "ps"},   {"frames", parts.frames}, {"rows", parts.rows},
+  for (const TraceParts::PortPart& port : parts.ports)
+    ports.push_back({{"name", port.name}, {"path", port.path}});
+  const nlohmann::ordered_json head{{"time_unit", "ps"},    {"frames", parts.frames}, {"rows", parts.rows},
                                     {"tiles", parts.tiles}, {"stages", stages},       {"streams", streams},
                                     {"ports", ports}};
   std::string text = head.dump(1);
@@ -66,13 +68,20 @@ template <class Event>
 void JsonTrace::put(const Event& event) {
   out_.add(std::string_view(first_ ? "\n{\"table\":\"" : ",\n{\"table\":\""));
   first_ = false;
-  out_.add(std::string_view(trace_columns::table_of(event)));
+  out_.add(trace_columns::table_of(event));
   out_.add('"');
   Members members(out_);
   trace_columns::put(members, parts_, event);
   out_.add('}');
-  out_.write_if_full();
 }
+
+void JsonTrace::row(const StageRow& row) { put(row); }
+void JsonTrace::fifo(const FifoSpan& span) { put(span); }
+void JsonTrace::port_row(const PortRow& row) { put(row); }
+void JsonTrace::frame(const FrameRecord& record) { put(record); }
+void JsonTrace::firing(const StageFiring& firing) { put(firing); }
+void JsonTrace::token(const TokenTransfer& token) { put(token); }
+void JsonTrace::burst(const BurstTransfer& burst) { put(burst); }
 
 void JsonTrace::end(Picoseconds time, const std::vector<EndlessWait>& waits) {
   auto list = nlohmann::ordered_json::array();

@@ -18,8 +18,9 @@ Recorder::Recorder(const sc_core::sc_module_name& name, const RecorderConfig& co
       add_parts_(std::move(add_parts)),
       steps_([](const Step& step) { return step.time; },
              [](const Step& step, TraceSink& sink) { sink.frame_step(step.frame, step.step, step.time); }),
-      frames_([](const FrameRecord& record) { return record.at[static_cast<std::size_t>(FrameStep::kAtHost)]; },
-              [](const FrameRecord& record, TraceSink& sink) { sink.frame(record); }) {
+      frames_(
+          [](const FrameRecord& record) { return record.at[static_cast<std::size_t>(FrameStep::kAtHost)]; },
+          [](const FrameRecord& record, TraceSink& sink) { sink.frame(record); }) {
   parts_.rows = config.rows;
   parts_.tiles = config.tiles;
   parts_.frames = config.frames;
@@ -41,11 +42,8 @@ void Recorder::add(StreamBase& stream, const std::shared_ptr<const RowEnds>& row
   parts_.streams.push_back(part);
   stream_ids_[&stream] = id;
   streams_.push_back(&stream);
-  FifoTrace& trace = fifos_.emplace_back(stream, id, rows, config_.window, config_.tokens);
-  lanes_.push_back(&trace.spans());
-  if (!config_.tokens) return;
-  lanes_.push_back(&trace.written());
-  lanes_.push_back(&trace.read());
+  lanes_.push_back(&fifos_.emplace_back(stream, id, rows, config_.window).spans());
+  if (config_.tokens) lanes_.push_back(&tokens_.emplace_back(stream, id, rows, config_.window));
 }
 
 void Recorder::add(Stage& stage, const StagePorts& ports) {

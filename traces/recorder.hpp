@@ -14,6 +14,7 @@
 #include "traces/fifo_trace.hpp"
 #include "traces/port_trace.hpp"
 #include "traces/stage_trace.hpp"
+#include "traces/token_trace.hpp"
 #include "traces/trace_window.hpp"
 
 namespace parallax {
@@ -21,16 +22,16 @@ namespace parallax {
 /// What a recorder tells of.
 struct RecorderConfig {
   TraceWindow window{};
-  bool tokens = false;         ///< every firing, token and burst, not rows alone
-  std::int32_t rows = 0;       ///< of the image
-  std::int32_t tiles = 1;      ///< that a frame is processed in
-  std::int64_t frames = 0;     ///< of the run
-  sc_core::sc_time pace;       ///< how often FIFOs are looked at, and sinks told
+  bool tokens = false;      ///< every firing, token and burst, not rows alone
+  std::int32_t rows = 0;    ///< of the image
+  std::int32_t tiles = 1;   ///< that a frame is processed in
+  std::int64_t frames = 0;  ///< of the run
+  sc_core::sc_time pace;    ///< how often FIFOs are looked at, and sinks told
 };
 
-/// Listens to the parts that it is given and tells sinks, in the order of the dates, what they do. What nobody is
-/// given to is not listened to, and computed for nobody. Dates are known ahead of kernel time, part by part; they are
-/// kept until kernel time has come to them, so that memory stays flat however long the run.
+/// Listens to the parts that it is given and tells sinks, in the order of the dates, what they do. What
+/// nobody is given to is not listened to, and computed for nobody. Dates are known ahead of kernel time, part
+/// by part; they are kept until kernel time has come to them, so that memory stays flat however long the run.
 ///
 /// Parts are added when all ports are bound, sinks before; they must outlive the simulation.
 class Recorder final : public sc_core::sc_module {
@@ -71,6 +72,7 @@ class Recorder final : public sc_core::sc_module {
   std::vector<const StreamBase*> streams_;
   std::unordered_map<const StreamBase*, PartId> stream_ids_;
   std::deque<FifoTrace> fifos_;
+  std::deque<TokenTrace> tokens_;
   std::deque<StageTrace> stages_;
   std::deque<PortTrace> ports_;
   EventLane<Step> steps_;

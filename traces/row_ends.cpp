@@ -20,7 +20,8 @@ void RowCursor::advance(std::uint64_t units) {
   const std::uint64_t frame = ends_->frame();
   frame_ += static_cast<std::int64_t>(at_ / frame);
   at_ %= frame;
-  row_ = static_cast<std::size_t>(std::upper_bound(ends_->ends.begin(), ends_->ends.end(), at_) - ends_->ends.begin());
+  row_ = static_cast<std::size_t>(std::upper_bound(ends_->ends.begin(), ends_->ends.end(), at_) -
+                                  ends_->ends.begin());
 }
 
 }  // namespace parallax

@@ -12,8 +12,8 @@
 
 namespace parallax {
 
-/// Makes rows, and on request firings, of what a stage tells of its firings. Leaps are taken as they come: only where a
-/// row begins within one are firings gone through one by one, unless all are wanted.
+/// Makes rows, and on request firings, of what a stage tells of its firings. Leaps are taken as they come:
+/// only where a row begins within one are firings gone through one by one, unless all are wanted.
 class StageTrace final : public StageListener {
  public:
   /// Number of a stream.
@@ -49,6 +49,7 @@ class StageTrace final : public StageListener {
   void begin_row(Cycles start);
   void end_row(const FiringDates& next);
   std::uint64_t until_next_row() const;
+  PartId id_of(const StreamBase* stream);
   const ScheduleRow& schedule_row() const { return schedule_.rows[row_]; }
   Picoseconds date(Cycles cycle) const { return clock_.date_of(cycle); }
 
@@ -60,6 +61,7 @@ class StageTrace final : public StageListener {
   const TraceWindow& window_;
   const bool wants_firings_;
   const StreamId stream_id_;
+  std::vector<std::pair<const StreamBase*, PartId>> stream_ids_;  // of those asked for: a handful
 
   std::uint64_t firing_ = 0;  // of the pass, the next one
   std::size_t row_ = 0;       // of the pass, that it belongs to
