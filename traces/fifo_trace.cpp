@@ -29,8 +29,8 @@ void FifoTrace::sample() {
   const ClockDomain& clock = stream_.writer_clock();
   FifoSpan span;
   span.stream = id_;
-  span.begin = clock.date_of(last_.until);
-  span.end = clock.date_of(fill.until);
+  span.begin = last_date_;
+  span.end = last_date_ = clock.date_of(fill.until);
   span.cycles = static_cast<std::uint64_t>((fill.until - last_.until).count());
   span.token_cycles = fill.token_cycles - last_.token_cycles;
   span.full_cycles = fill.full_cycles - last_.full_cycles;

@@ -30,7 +30,8 @@ class FifoTrace final {
   const StreamBase& stream_;
   const PartId id_;
   const TraceWindow& window_;
-  FifoFill last_;     // that a span has been made until
+  FifoFill last_;  // that a span has been made until, and its date
+  Picoseconds last_date_;
   FifoSpan pending_;  // while it goes on alike
   bool has_pending_ = false;
   std::optional<RowCursor> writes_, reads_;

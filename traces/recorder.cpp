@@ -11,7 +11,7 @@ Picoseconds now() { return Picoseconds(static_cast<std::int64_t>(sc_core::sc_tim
 }  // namespace
 
 Recorder::Recorder(const sc_core::sc_module_name& name, const RecorderConfig& config, Dataflow& dataflow,
-                   std::function<void()> add_parts)
+                   Pace& pace, std::function<void()> add_parts)
     : sc_module(name),
       config_(config),
       dataflow_(dataflow),
@@ -26,8 +26,7 @@ Recorder::Recorder(const sc_core::sc_module_name& name, const RecorderConfig& co
   parts_.frames = config.frames;
   parts_.tokens = config.tokens;
   lanes_ = {&steps_, &frames_};
-  SC_HAS_PROCESS(Recorder);
-  SC_METHOD(go_on);
+  pace.add(config.pace, [this] { go_on(); });
 }
 
 void Recorder::add(StreamBase& stream, const std::shared_ptr<const RowEnds>& rows) {
@@ -92,9 +91,8 @@ void Recorder::go_on() {
   for (FifoTrace& fifo : fifos_) fifo.sample();
   // Streams that are in a leap tell of their tokens when it has come to an end, or when they are asked.
   if (config_.tokens) dataflow_.bring_up_to_date();
-  tell_until(now(), lanes_, sinks_);
-  // A machine that has come to rest must not be kept going by who looks at it.
-  if (sc_core::sc_pending_activity()) next_trigger(config_.pace);
+  // Events of rows are few: to look for them costs more than to keep some.
+  if (config_.tokens || ++looks_ % kLooksBetween == 0) tell_until(now(), lanes_, sinks_);
 }
 
 void Recorder::finish(const std::vector<EndlessWait>& waits) {

@@ -12,6 +12,7 @@
 
 #include "tlm/dataflow.hpp"
 #include "traces/fifo_trace.hpp"
+#include "traces/pace.hpp"
 #include "traces/port_trace.hpp"
 #include "traces/stage_trace.hpp"
 #include "traces/token_trace.hpp"
@@ -37,7 +38,7 @@ struct RecorderConfig {
 class Recorder final : public sc_core::sc_module {
  public:
   /// `add_parts` is called when all ports are bound, before the simulation starts.
-  Recorder(const sc_core::sc_module_name& name, const RecorderConfig& config, Dataflow& dataflow,
+  Recorder(const sc_core::sc_module_name& name, const RecorderConfig& config, Dataflow& dataflow, Pace& pace,
            std::function<void()> add_parts);
 
   /// `rows`: of the tokens; none when they belong to no row.
@@ -60,6 +61,8 @@ class Recorder final : public sc_core::sc_module {
     Picoseconds time;
   };
 
+  static constexpr std::uint64_t kLooksBetween = 8;
+
   void start_of_simulation() override;
   void go_on();
   PartId id_of(const StreamBase* stream) const;
@@ -78,6 +81,7 @@ class Recorder final : public sc_core::sc_module {
   EventLane<Step> steps_;
   EventLane<FrameRecord> frames_;
   std::vector<TraceLane*> lanes_;
+  std::uint64_t looks_ = 0;
 };
 
 }  // namespace parallax

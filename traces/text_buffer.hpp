@@ -12,6 +12,21 @@
 
 namespace parallax {
 
+/// Appends to `at`, where there is room, and returns where that ends.
+inline char* put(char* at, std::string_view text) {
+  std::memcpy(at, text.data(), text.size());
+  return at + text.size();
+}
+constexpr std::size_t kDigits = 20;  // of a number at most
+inline char* put(char* at, std::int64_t number) {
+  // Most numbers are counts, and most of these are small.
+  if (number >= 0 && number < 10) {
+    *at = static_cast<char>('0' + number);
+    return at + 1;
+  }
+  return std::to_chars(at, at + kDigits, number).ptr;
+}
+
 /// Collects text, or other bytes, for a file, so that it is written in large pieces.
 class TextBuffer {
  public:
@@ -29,18 +44,7 @@ class TextBuffer {
     if (size_ == kSize) write();
     text_[size_++] = c;
   }
-  void add(std::int64_t number) {
-    constexpr std::size_t kDigits = 20;
-    if (kSize - size_ < kDigits) write();
-    char* const begin = text_.get() + size_;
-    // Most numbers are counts, and most of these are small.
-    if (number >= 0 && number < 10) {
-      *begin = static_cast<char>('0' + number);
-      ++size_;
-    } else {
-      size_ += static_cast<std::size_t>(std::to_chars(begin, begin + kDigits, number).ptr - begin);
-    }
-  }
+  void add(std::int64_t number) { added_until(put(room(kDigits), number)); }
   /// For who writes bytes by himself: where `most` fit, and, when they are there, where they end.
   char* room(std::size_t most) {
     if (kSize - size_ < most) write();

@@ -95,8 +95,9 @@ class Run {
     if (options_.verdict)
       standby_ = std::make_unique<StandbyEvaluator>(timing_input(), options_.configuration);
     const Machine machine("machine", configuration_.machine, input);
-    if (folder_) profile_ = std::make_unique<RunProfile>(machine);
-    if (options_.trace.wanted()) tracing_ = std::make_unique<Tracing>(trace_choice_, machine, *folder_);
+    Pace pace("pace");
+    if (folder_) profile_ = std::make_unique<RunProfile>(machine, pace);
+    if (options_.trace.wanted()) tracing_ = std::make_unique<Tracing>(trace_choice_, machine, pace, *folder_);
     tell_notes();
     simulate([&] { return interruption.requested(); });
     progress_.reset();
@@ -198,7 +199,7 @@ class Run {
     const std::string prefix = source_->frames() == 1 ? "" : fmt::format("frame_{:04}/", result.index);
     write_frame(*folder_, prefix, crop_image(left, size_), disparities, writing_);
     // The frames of a sequence appear one by one, a single pair's results together with its timing.
-    if (source_->frames() > 1) folder_->publish();
+    if (source_->frames() > 1) folder_->publish_written();
   }
 
   // The files say how far it came.

@@ -108,11 +108,11 @@ TraceChoice read_trace_options(const TraceOptions& options) {
   return choice;
 }
 
-Tracing::Tracing(const TraceChoice& choice, const Machine& machine, OutputFolder& folder)
+Tracing::Tracing(const TraceChoice& choice, const Machine& machine, Pace& pace, OutputFolder& folder)
     : machine_(machine),
       wanted_(checked_parts(choice.parts, machine)),
       window_(choice.window),
-      recorder_("recorder", recorder_config(choice, machine), const_cast<Dataflow&>(machine.dataflow()),
+      recorder_("recorder", recorder_config(choice, machine), const_cast<Dataflow&>(machine.dataflow()), pace,
                 [this] { add_parts(); }) {
   for (const std::string& format : choice.formats) {
     sinks_.push_back(make_sink(format, folder));

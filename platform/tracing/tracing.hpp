@@ -11,7 +11,8 @@
 
 namespace parallax {
 
-/// What the options ask for, checked. Throws UserError for a format, level, bound or combination that there is not.
+/// What the options ask for, checked. Throws UserError for a format, level, bound or combination that there
+/// is not.
 struct TraceChoice {
   std::vector<std::string> formats;
   bool tokens = false;
@@ -23,9 +24,9 @@ TraceChoice read_trace_options(const TraceOptions& options);
 /// The trace of a run: a recorder on the parts of a machine, and the files that it fills.
 class Tracing {
  public:
-  /// To be made when the machine is, before the simulation starts. Throws UserError for a window outside the run, or a
-  /// part that the machine has not. Files are of the folder's next publish().
-  Tracing(const TraceChoice& choice, const Machine& machine, OutputFolder& folder);
+  /// To be made when the machine is, before the simulation starts. Throws UserError for a window outside the
+  /// run, or a part that the machine has not. Files are of the folder's publish().
+  Tracing(const TraceChoice& choice, const Machine& machine, Pace& pace, OutputFolder& folder);
   ~Tracing();
 
   /// Now; frames after the run's last one are left out.
