@@ -75,8 +75,10 @@ class TraceNumbers : public testing::TestWithParam<Case> {
       EXPECT_EQ(ps("first_frame"),
                 trace.number(fmt::format("select {}_ps-{}_ps from frames where frame='1'", to, from)));
       EXPECT_EQ(ps("largest"), trace.number(fmt::format("select max({}_ps-{}_ps) {}", to, from, steady)));
-      EXPECT_NEAR(ps("mean"),
-                  trace.number(fmt::format("select sum({}_ps-{}_ps)/count(*) {}", to, from, steady)), 1);
+      EXPECT_NEAR(static_cast<double>(ps("mean")),
+                  static_cast<double>(
+                      trace.number(fmt::format("select sum({}_ps-{}_ps)/count(*) {}", to, from, steady))),
+                  1);
     }
   }
   /// Rows' bytes and what a frame moves, of each port.
@@ -166,12 +168,11 @@ TEST_P(TraceNumbers, OfTimingJsonAreThoseOfTheTokens) {
 
 INSTANTIATE_TEST_SUITE_P(
     Of, TraceNumbers,
-    testing::Values(Case{"Preset", "--size 96x64"},
-                    Case{"Tiles", "--size 256x32 --set tiles.limit=192"},
+    testing::Values(Case{"Preset", "--size 96x64"}, Case{"Tiles", "--size 256x32 --set tiles.limit=192"},
                     Case{"SlowMemory", "--size 96x64 --set memory.model=bus --set clocks.memory_hz=5000000"},
                     Case{"SaturatedLink", "--size 96x64 --set link.line_rate=20000000"},
                     Case{"SeveralPasses", "--size 96x64 --set matching.iterations=2"}),
-    [](const testing::TestParamInfo<Case>& info) { return info.param.name; });
+    [](const auto& of) { return std::string(of.param.name); });
 
 }  // namespace
 }  // namespace parallax::test
