@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <exception>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "platform/machine.hpp"
@@ -35,17 +37,22 @@ class Tracing {
   }
   /// Frame `frame` is at the host.
   void delivered(std::int64_t frame);
-  /// When the simulation is over. Throws UserError when the window was after its end.
+  /// When the simulation is over. Throws UserError when the disk was full, which has ended the simulation, or
+  /// when the window was after its end.
   void finish();
 
  private:
   void add_parts();
+  ByteSink file(OutputFolder& folder, const std::string& name);
+  std::unique_ptr<TraceSink> make_sink(const std::string& format, OutputFolder& folder);
+  void check() const;
 
   const Machine& machine_;
   const std::vector<std::string> wanted_;  // parts; none: all
   const TraceWindow window_;
   std::vector<std::unique_ptr<TraceSink>> sinks_;
   Recorder recorder_;
+  std::exception_ptr failure_;  // of a write
 };
 
 }  // namespace parallax

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <ostream>
 
 #include "tests/traces/database.hpp"
 
@@ -18,6 +19,8 @@ namespace {
 struct Case {
   const char* name;
   const char* options;
+
+  friend void PrintTo(const Case& run, std::ostream* out) { *out << run.options; }
 };
 
 // A run with a trace, its tables, and what timing.json says.
@@ -71,7 +74,9 @@ class TraceNumbers : public testing::TestWithParam<Case> {
       const auto ps = [&](const std::string& of) {
         return std::llround(metric<double>(latency, fmt::format("{}_{}", span, of)) * 1e9);
       };
-      const std::string steady = fmt::format("from frames where frame+0 between {} and {}", first_, last_);
+      // Of the frame whose arrival begins the window, too.
+      const std::string steady =
+          fmt::format("from frames where frame+0 between {} and {}", first_ - 1, last_);
       EXPECT_EQ(ps("first_frame"),
                 trace.number(fmt::format("select {}_ps-{}_ps from frames where frame='1'", to, from)));
       EXPECT_EQ(ps("largest"), trace.number(fmt::format("select max({}_ps-{}_ps) {}", to, from, steady)));

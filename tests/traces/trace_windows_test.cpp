@@ -61,8 +61,15 @@ TEST_F(TraceWindows, OfTimeHoldTheEventsThatTouchIt) {
 TEST_F(TraceWindows, OfOneLevelHaveTheRowsOfTheOther) {
   const Database rows = run("rows", "");
   const Database tokens = run("tokens", "--trace-level tokens --trace-from 0ps");
-  for (const char* table : {"rows", "fifos", "ports", "frames"})
+  for (const char* table : {"rows", "ports", "frames"})
     EXPECT_EQ(events(rows, table), events(tokens, table)) << table;
+  // How full a FIFO is may be known at other dates.
+  const char* const sums =
+      "select "
+      "stream,sum(cycles+0),sum(token_cycles+0),sum(full_cycles+0),sum(empty_cycles+0),sum(written+0),sum("
+      "freed+0) "
+      "from fifos group by stream";
+  EXPECT_EQ(rows.query(sums), tokens.query(sums));
 }
 
 TEST_F(TraceWindows, FiringsMakeTheRows) {
@@ -70,11 +77,11 @@ TEST_F(TraceWindows, FiringsMakeTheRows) {
   const auto rows = trace.query(
       "select stage,frame,row,begin_ps,busy_until_ps,firings from rows where draining='0' order by 1,2,3");
   const auto merged = trace.query(
-      "select stage,frame,row,min(start_ps+0),max(end_ps+0),count(*) from firings f where exists (select * "
-      "from rows r where "
-      "r.stage=f.stage and r.frame=f.frame and r.row=f.row and r.draining='0' and f.start_ps+0>=r.begin_ps+0 "
-      "and "
-      "f.start_ps+0<r.end_ps+0) group by stage,frame,row order by 1,2,3");
+      "create index by_row on firings(stage,frame,row);"
+      "select r.stage,r.frame,r.row,min(f.start_ps+0),max(f.end_ps+0),count(*) from rows r, firings f where "
+      "r.draining='0' "
+      "and f.stage=r.stage and f.frame=r.frame and f.row=r.row and f.start_ps+0>=r.begin_ps+0 and "
+      "f.start_ps+0<r.end_ps+0 group by 1,2,3 order by 1,2,3");
   EXPECT_GT(rows.size(), 1000u);
   EXPECT_EQ(merged, rows);
 }
@@ -129,7 +136,7 @@ TEST(TraceOptions, ThatCannotBeAreOneLine) {
 
 TEST(TraceOptions, AMomentMustBeAFrameARowOrATime) {
   for (const char* when :
-       {"0", "-1", "x", "2:", "2:-1", "2:x", "1.5", "5min", "-3ms", "nan", "1e99s", "2:3:4", "''"}) {
+       {"0", "-1", "x", "2:", "2:-1", "2:x", "1.5", "5min", "-3ms", "nan", "1e99s", "2:3:4"}) {
     const Program program;
     const Outcome outcome = program(kRun + fmt::format("--trace csv --out out --trace-to {}", when));
     EXPECT_EQ(outcome.code, 2) << when;
