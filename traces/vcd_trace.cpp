@@ -11,6 +11,9 @@ namespace {
 constexpr std::int32_t kStateBits = 3;
 constexpr std::int64_t kIdle = 7;  // no firing known, none waited for
 constexpr std::int32_t kNumberBits = 32;
+// The dates of disparities are known when it is too late for a wave.
+constexpr FrameStep kTold[] = {FrameStep::kExposed,     FrameStep::kFirstByte,       FrameStep::kInMemory,
+                               FrameStep::kCoreStarted, FrameStep::kResultsInMemory, FrameStep::kAtHost};
 
 // Identifier of the n-th signal: printable characters without a blank.
 std::string code_of(std::size_t number) {
@@ -56,8 +59,8 @@ VcdTrace::SignalId VcdTrace::declare(const std::string& scope, const std::string
 void VcdTrace::begin(const TraceParts& parts) {
   parts_ = parts;
   for (const TraceParts::StagePart& stage : parts.stages) {
-    stages_.push_back({declare(stage.path, "state", kStateBits), declare(stage.path, "frame", kNumberBits),
-                       declare(stage.path, "row", kNumberBits)});
+    stages_.push_back({declare(stage.path, "state", kStateBits), declare(stage.path, "waited", kStateBits),
+                       declare(stage.path, "frame", kNumberBits), declare(stage.path, "row", kNumberBits)});
     signals_[stages_.back().state].value = kIdle;
   }
   for (const TraceParts::StreamPart& stream : parts.streams) {
@@ -67,15 +70,18 @@ void VcdTrace::begin(const TraceParts& parts) {
   for (const TraceParts::PortPart& port : parts.ports) {
     ports_.push_back({declare(port.path, "row", kNumberBits), declare(port.path, "requests", kNumberBits)});
   }
-  for (std::size_t step = 0; step < kFrameSteps; ++step) {
-    steps_.push_back(declare("frames", name_of(static_cast<FrameStep>(step)), kNumberBits));
+  for (const FrameStep step : kTold) {
+    steps_[static_cast<std::size_t>(step)] = declare("frames", name_of(step), kNumberBits);
   }
   std::stable_sort(declarations_.begin(), declarations_.end(),
                    [](const auto& a, const auto& b) { return parts_of(a.first) < parts_of(b.first); });
   out_.add(std::string_view("$timescale 1 ps $end\n"));
   out_.add(fmt::format(
-      "$comment state: 0 busy, 1 upstream empty, 2 downstream full, 3 memory, 4 synchroniser, 5 blanking, "
-      "7 idle; level {}; frames: how many have come so far $end\n",
+      "$comment state: 0 busy, 5 overhead, 7 neither; of a machine that is stuck, at the end: 1 upstream "
+      "empty, 2 downstream "
+      "full; waited, when a wait is over: 0 not, 1 upstream empty, 2 downstream full, 3 memory, 4 "
+      "synchroniser, 5 blanking; "
+      "level {}; frames: how many have come so far $end\n",
       parts.tokens ? "tokens: write and read are high in the cycles in which a token passes"
                    : "rows: write and read are high when tokens passed in the row's time before"));
   std::vector<std::string> open;
@@ -173,9 +179,9 @@ void VcdTrace::row_begins(const StageRow& row) {
 
 void VcdTrace::row(const StageRow& row) {
   if (parts_.tokens) return;
-  // The row is over: all that is still to be seen of it is the wait that led to the next one's begin.
   const StageSignals& stage = stages_[static_cast<std::size_t>(row.stage)];
   change(row.end, stage.state, kIdle);
+  change(row.end, stage.waited, static_cast<std::int64_t>(row.longest_wait));
 }
 
 void VcdTrace::fifo(const FifoSpan& span) {
@@ -199,6 +205,11 @@ void VcdTrace::firing(const StageFiring& firing) {
   const StageSignals& stage = stages_[static_cast<std::size_t>(firing.stage)];
   change(firing.start, stage.state, static_cast<std::int64_t>(firing.work));
   change_later(firing.end, stage.state, kIdle);
+  const bool for_input = firing.ready - firing.free >= firing.start - firing.ready;
+  const StageActivity wait = firing.start == firing.free ? StageActivity::kBusy
+                             : for_input                 ? firing.input_wait
+                                                         : firing.room_wait;
+  change(firing.start, stage.waited, static_cast<std::int64_t>(wait));
 }
 
 void VcdTrace::token(const TokenTransfer& token) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <utility>
@@ -13,10 +14,12 @@
 namespace parallax {
 
 /// Writes a trace as a value change dump (IEEE 1364), in ps from the same zero as the model, so that it lies
-/// beside the waves of RTL: for each stage its state, frame and row; for each stream whether a token is
-/// written and read in the cycle (valid and ready both high) and the level of its FIFO; for each memory port
-/// its row and what is under way; and how many frames have come to each step. Of a trace of rows, write and
-/// read are 1 when tokens have passed in the row's time before, and levels are those at its end.
+/// beside the waves of RTL. For each stage whether it is at work, for what it waited before (that is known
+/// when the wait is over), frame and row; for each stream whether a token is written and read in the cycle
+/// (valid and ready both high) and the level of its FIFO; for each memory port its row and the requests under
+/// way; and how many frames have come to each step that has a date of the kernel. Of a trace of rows, a stage
+/// is at work from a row's first firing until that of the row after, write and read are 1 when tokens have
+/// passed in the row's time before, and levels are those at its end.
 class VcdTrace final : public TraceSink {
  public:
   explicit VcdTrace(ByteSink sink) : out_(std::move(sink)) {}
@@ -50,7 +53,7 @@ class VcdTrace final : public TraceSink {
     std::int64_t operator()(const Later& later) const { return later.time; }
   };
   struct StageSignals {
-    SignalId state, frame, row;
+    SignalId state, waited, frame, row;
   };
   struct StreamSignals {
     SignalId write, read, level;
@@ -74,7 +77,7 @@ class VcdTrace final : public TraceSink {
   std::vector<StageSignals> stages_;
   std::vector<StreamSignals> streams_;
   std::vector<PortSignals> ports_;
-  std::vector<SignalId> steps_;
+  std::array<SignalId, kFrameSteps> steps_{};
   std::int64_t time_ = 0;
   std::vector<SignalId> changed_;  // at time_
   DateQueue<Later, LaterDate> later_{LaterDate{}};
