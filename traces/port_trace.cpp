@@ -28,15 +28,17 @@ PortTrace::PortTrace(BusMaster& master, PartId id, const std::shared_ptr<const R
   master.listen(*this);
 }
 
-void PortTrace::Requests::tell(const TraceSinks& sinks) {
+Picoseconds PortTrace::Requests::tell(const TraceSinks& sinks) {
   const Picoseconds date = next();
   bool inside = false;
   for (; next() == date; changes_.pop()) {
     under_way_ += changes_.front().bursts;
     inside |= changes_.front().inside;
   }
-  if (!inside) return;
-  for (TraceSink* sink : sinks) sink->requests({port_, date, under_way_});
+  if (inside) {
+    for (TraceSink* sink : sinks) sink->requests({port_, date, under_way_});
+  }
+  return next();
 }
 
 void PortTrace::requested(const BusMaster&, const sc_core::sc_time& time) {

@@ -29,7 +29,7 @@ class PortTrace final : public BusListener {
     explicit Requests(PartId port) : port_(port) {}
     void add(Picoseconds time, std::int64_t bursts, bool inside) { changes_.push({time, bursts, inside}); }
     Picoseconds next() const override { return changes_.empty() ? kNever : changes_.date(); }
-    void tell(const TraceSinks& sinks) override;
+    Picoseconds tell(const TraceSinks& sinks) override;
 
    private:
     struct Change {

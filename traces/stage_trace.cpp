@@ -58,11 +58,7 @@ void StageTrace::repeated(const Stage&, const std::vector<FiringDates>& period, 
                                            date(period.back().start + until));
     const std::uint64_t whole = one_by_one ? 0 : periods;
     if (whole > 0) {
-      for (const FiringDates& firing : period) {
-        add_waits(firing, static_cast<std::int64_t>(whole));
-        current_.time.of(firing.work) += Cycles(firing.interval) * static_cast<std::int64_t>(whole);
-      }
-      current_.time.firings += whole * period.size();
+      add_periods(period, static_cast<std::int64_t>(whole));
       firing_ += whole * period.size();
       later += every * static_cast<std::int64_t>(whole);
       free_ = period.back().start + Cycles(period.back().interval) + later - every;
@@ -83,7 +79,7 @@ void StageTrace::repeated(const Stage&, const std::vector<FiringDates>& period, 
 
 // `in_row_` is false before the first firing of a row.
 void StageTrace::note(const FiringDates& firing) {
-  add_waits(firing, 1);
+  add_waits(firing, current_.time, waits_);
   if (!in_row_) {
     if (pass_ > 0 || firing_ > 0) end_row(firing);
     begin_row(firing.start);
@@ -113,23 +109,38 @@ void StageTrace::note_firing(const FiringDates& firing) {
   firings_.push(event);
 }
 
-void StageTrace::add_waits(const FiringDates& firing, std::int64_t times) {
-  if (firing.ready > firing.free)
-    add_wait(firing.input_wait, firing.input, (firing.ready - firing.free) * times);
-  if (firing.start > firing.ready)
-    add_wait(firing.room_wait, firing.room, (firing.start - firing.ready) * times);
+void StageTrace::add_wait(const Wait& wait, std::vector<Wait>& waits) {
+  const auto same = std::find_if(waits.begin(), waits.end(), [&](const Wait& known) {
+    return known.activity == wait.activity && known.stream == wait.stream;
+  });
+  if (same == waits.end()) {
+    waits.push_back(wait);
+  } else {
+    same->cycles += wait.cycles;
+  }
 }
 
-void StageTrace::add_wait(StageActivity activity, const StreamBase* stream, Cycles cycles) {
-  current_.time.of(activity) += cycles;
-  const auto same = std::find_if(waits_.begin(), waits_.end(), [&](const Wait& wait) {
-    return wait.activity == activity && wait.stream == stream;
-  });
-  if (same == waits_.end()) {
-    waits_.push_back({activity, stream, cycles});
-  } else {
-    same->cycles += cycles;
+void StageTrace::add_waits(const FiringDates& firing, StageStatistics& time, std::vector<Wait>& waits) {
+  const auto add = [&](StageActivity activity, const StreamBase* stream, Cycles cycles) {
+    if (cycles == Cycles(0)) return;
+    time.of(activity) += cycles;
+    add_wait({activity, stream, cycles}, waits);
+  };
+  add(firing.input_wait, firing.input, firing.ready - firing.free);
+  add(firing.room_wait, firing.room, firing.start - firing.ready);
+}
+
+void StageTrace::add_periods(const std::vector<FiringDates>& period, std::int64_t times) {
+  if (period_.first != period.data() || period_.begin != period.front().start) {
+    period_ = {period.data(), period.front().start, {}, {}};
+    for (const FiringDates& firing : period) {
+      add_waits(firing, period_.time, period_.waits);
+      period_.time.of(firing.work) += Cycles(firing.interval);
+      ++period_.time.firings;
+    }
   }
+  current_.time.add(period_.time, times);
+  for (const Wait& wait : period_.waits) add_wait({wait.activity, wait.stream, wait.cycles * times}, waits_);
 }
 
 void StageTrace::begin_row(Cycles start) {

@@ -42,10 +42,19 @@ class StageTrace final : public StageListener {
   void repeated(const Stage& stage, const std::vector<FiringDates>& period, Cycles later, Cycles every,
                 std::uint64_t times) override;
 
+  // Where the time of one period goes.
+  struct Period {
+    const FiringDates* first = nullptr;
+    Cycles begin;
+    StageStatistics time;
+    std::vector<Wait> waits;
+  };
+
   void note(const FiringDates& firing);
   void note_firing(const FiringDates& firing);
-  void add_waits(const FiringDates& firing, std::int64_t times);
-  void add_wait(StageActivity activity, const StreamBase* stream, Cycles cycles);
+  static void add_wait(const Wait& wait, std::vector<Wait>& waits);
+  static void add_waits(const FiringDates& firing, StageStatistics& time, std::vector<Wait>& waits);
+  void add_periods(const std::vector<FiringDates>& period, std::int64_t times);
   void begin_row(Cycles start);
   void end_row(const FiringDates& next);
   std::uint64_t until_next_row() const;
@@ -70,6 +79,7 @@ class StageTrace final : public StageListener {
   bool in_window_ = false;  // the row, by where or when it begins
   StageRow current_;
   std::vector<Wait> waits_;
+  Period period_;   // the last one: a leap brings the same again and again
   Cycles free_{0};  // after the last firing
 
   EventLane<Event> rows_;

@@ -37,8 +37,9 @@ void TokenTrace::Side::pass(Cycles cycle) {
   if (passed_ >= end_token_ || cycle >= end_cycle_) return;
   if (passed_ < first_token_ || cycle < first_cycle_) return count(1);
   Token token;
-  token.begin = clock_.date_of(cycle);
-  token.end = clock_.date_of(cycle + Cycles(1));
+  token.begin = cycle == last_cycle_ + Cycles(1) ? last_end_ : clock_.date_of(cycle);
+  token.end = last_end_ = clock_.date_of(cycle + Cycles(1));
+  last_cycle_ = cycle;
   if (rows_) {
     token.place = rows_->place();
     rows_->advance(1);
@@ -69,14 +70,6 @@ void TokenTrace::Side::pass_again(const std::vector<Cycles>& period, Cycles ever
   }
 }
 
-std::optional<TokenTrace::Token> TokenTrace::Side::take(Picoseconds date) {
-  if (next() != date) return std::nullopt;
-  const Token token = tokens_.front();
-  tokens_.pop();
-  ++taken_;
-  return token;
-}
-
 TokenTrace::TokenTrace(StreamBase& stream, PartId id, const std::shared_ptr<const RowEnds>& rows,
                        const TraceWindow& window)
     : id_(id),
@@ -86,13 +79,20 @@ TokenTrace::TokenTrace(StreamBase& stream, PartId id, const std::shared_ptr<cons
   stream.listen(this);
 }
 
-void TokenTrace::tell(const TraceSinks& sinks) {
+Picoseconds TokenTrace::tell(const TraceSinks& sinks) {
   const Picoseconds date = next();
   // The level is that after the cycle, for both.
-  const std::optional<Token> written = writes_.take(date);
-  const std::optional<Token> read = reads_.take(date);
-  if (written) tell(*written, false, sinks);
-  if (read) tell(*read, true, sinks);
+  const bool written = writes_.take(date);
+  const bool read = reads_.take(date);
+  if (written) {
+    tell(writes_.front(), false, sinks);
+    writes_.pop();
+  }
+  if (read) {
+    tell(reads_.front(), true, sinks);
+    reads_.pop();
+  }
+  return next();
 }
 
 void TokenTrace::tell(const Token& token, bool is_read, const TraceSinks& sinks) const {

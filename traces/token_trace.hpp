@@ -22,7 +22,7 @@ class TokenTrace final : public StreamListener, public TraceLane {
              const TraceWindow& window);
 
   Picoseconds next() const override { return std::min(writes_.next(), reads_.next()); }
-  void tell(const TraceSinks& sinks) override;
+  Picoseconds tell(const TraceSinks& sinks) override;
 
  private:
   struct Token {
@@ -41,8 +41,14 @@ class TokenTrace final : public StreamListener, public TraceLane {
     void pass(Cycles cycle);
     void pass_again(const std::vector<Cycles>& period, Cycles every, std::uint64_t times);
     Picoseconds next() const { return tokens_.empty() ? kNever : tokens_.date(); }
-    /// The token of `date`, if there is one.
-    std::optional<Token> take(Picoseconds date);
+    const Token& front() const { return tokens_.front(); }
+    void pop() { tokens_.pop(); }
+    /// Counts the token of `date`, if there is one.
+    bool take(Picoseconds date) {
+      if (next() != date) return false;
+      ++taken_;
+      return true;
+    }
     /// Tokens until the last one that was taken.
     std::uint64_t taken() const { return taken_; }
 
@@ -57,6 +63,8 @@ class TokenTrace final : public StreamListener, public TraceLane {
     // ones after.
     std::uint64_t first_token_ = 0, end_token_ = kEver;
     Cycles first_cycle_{0}, end_cycle_{std::numeric_limits<std::int64_t>::max()};
+    Cycles last_cycle_{-1};
+    Picoseconds last_end_;  // of that cycle
     std::uint64_t passed_ = 0;
     std::uint64_t taken_ = 0;
     DateQueue<Token, TokenDate> tokens_{TokenDate{}};

@@ -29,10 +29,7 @@ class NextDates {
       Picoseconds later = TraceLane::kNever;
       const std::size_t end = std::min(lanes_.size(), (group + 1) * kGroup);
       for (std::size_t lane = group * kGroup; lane < end; ++lane) {
-        if (next_[lane] == date) {
-          lanes_[lane]->tell(sinks);
-          next_[lane] = lanes_[lane]->next();
-        }
+        if (next_[lane] == date) next_[lane] = lanes_[lane]->tell(sinks);
         later = std::min(later, next_[lane]);
       }
       groups_[group] = later;

@@ -21,8 +21,8 @@ class TraceLane {
   virtual ~TraceLane() = default;
   /// Date of the next event; kNever when there is none.
   virtual Picoseconds next() const = 0;
-  /// Tells all sinks of the events of that date.
-  virtual void tell(const TraceSinks& sinks) = 0;
+  /// Tells all sinks of the events of that date, and returns the next one.
+  virtual Picoseconds tell(const TraceSinks& sinks) = 0;
 };
 
 /// A lane whose events are of one kind.
@@ -36,12 +36,13 @@ class EventLane final : public TraceLane {
 
   void push(const Event& event) { events_.push(event); }
   Picoseconds next() const override { return events_.empty() ? kNever : events_.date(); }
-  void tell(const TraceSinks& sinks) override {
+  Picoseconds tell(const TraceSinks& sinks) override {
     const Picoseconds date = events_.date();
     do {
       for (TraceSink* sink : sinks) tell_(events_.front(), *sink);
       events_.pop();
     } while (!events_.empty() && events_.date() == date);
+    return next();
   }
 
  private:

@@ -18,6 +18,9 @@ constexpr const char* kRun =
     "run --size 96x64 --disparities 32 --timing-only --timing-frames 2 -q --out out ";
 constexpr const char* kTokens = "--trace-level tokens --trace-from 2:4 --trace-to 2:9 ";
 
+constexpr const char* kWaits[] = {"",       "starved",      "blocked",
+                                  "memory", "synchroniser", "blanking"};  // as VCD counts them
+
 class TraceFormats : public testing::Test {
  protected:
   void run(const std::string& options) {
@@ -140,15 +143,21 @@ TEST_F(TraceFormats, VcdHasTheHandshakesAndFiringsOfCsv) {
     ++high[stream + "." + side];
   }
   EXPECT_GT(high.size(), 20u);
-  for (const std::string& line : csv.query("select stage,work,start_ps,end_ps,frame,row from firings")) {
+  for (const std::string& line :
+       csv.query("select stage,work,start_ps,end_ps,frame,row,case when start_ps=free_ps then '' when "
+                 "ready_ps-free_ps>=start_ps-ready_ps then input_wait else room_wait end from firings")) {
     std::istringstream in(line);
-    std::string stage, work, start, end, frame, row;
+    std::string stage, work, start, end, frame, row, wait;
     std::getline(in, stage, '|');
     std::getline(in, work, '|');
     std::getline(in, start, '|');
     std::getline(in, end, '|');
     std::getline(in, frame, '|');
     std::getline(in, row, '|');
+    std::getline(in, wait, '|');
+    ASSERT_EQ(kWaits[static_cast<std::size_t>(wave.at(pipeline + stage + ".waited", std::stoll(start)))],
+              wait)
+        << line;
     ASSERT_TRUE(
         wave.is(pipeline + stage + ".state", work == "busy" ? 0 : 5, std::stoll(start), std::stoll(end)))
         << line;
