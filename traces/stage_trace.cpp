@@ -34,11 +34,6 @@ StageTrace::StageTrace(Stage& stage, PartId id, const StagePorts& ports, const T
   stage.listen(this);
 }
 
-std::uint64_t StageTrace::until_next_row() const {
-  const bool last = row_ + 1 == schedule_.rows.size();
-  return (last ? schedule_.firings : schedule_.rows[row_ + 1].firing) - firing_;
-}
-
 PartId StageTrace::id_of(const StreamBase* stream) {
   for (const auto& [known, id] : stream_ids_) {
     if (known == stream) return id;
@@ -51,7 +46,9 @@ void StageTrace::repeated(const Stage&, const std::vector<FiringDates>& period, 
                           std::uint64_t times) {
   while (times > 0) {
     // Whole periods before the firing with which the next row begins.
-    const std::uint64_t periods = in_row_ ? std::min(times, until_next_row() / period.size()) : 0;
+    const std::uint64_t left = until_next_row();
+    const std::uint64_t possible = times * period.size() <= left ? times : left / period.size();
+    const std::uint64_t periods = in_row_ ? possible : 0;
     const Cycles until = later + every * static_cast<std::int64_t>(periods);
     const bool one_by_one =
         wants_firings_ && window_.contains(current_.place, date(period.front().free + later),
@@ -152,6 +149,8 @@ void StageTrace::begin_row(Cycles start) {
     ++row_;
   }
   const ScheduleRow& row = schedule_row();
+  const bool last = row_ + 1 == schedule_.rows.size();
+  row_end_ = last ? schedule_.firings : schedule_.rows[row_ + 1].firing;
   waits_.clear();
   current_ = {};
   current_.stage = id_;

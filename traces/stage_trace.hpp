@@ -57,7 +57,7 @@ class StageTrace final : public StageListener {
   void add_periods(const std::vector<FiringDates>& period, std::int64_t times);
   void begin_row(Cycles start);
   void end_row(const FiringDates& next);
-  std::uint64_t until_next_row() const;
+  std::uint64_t until_next_row() const { return row_end_ - firing_; }
   PartId id_of(const StreamBase* stream);
   const ScheduleRow& schedule_row() const { return schedule_.rows[row_]; }
   Picoseconds date(Cycles cycle) const { return clock_.date_of(cycle); }
@@ -72,8 +72,9 @@ class StageTrace final : public StageListener {
   const StreamId stream_id_;
   std::vector<std::pair<const StreamBase*, PartId>> stream_ids_;  // of those asked for: a handful
 
-  std::uint64_t firing_ = 0;  // of the pass, the next one
-  std::size_t row_ = 0;       // of the pass, that it belongs to
+  std::uint64_t firing_ = 0;   // of the pass, the next one
+  std::size_t row_ = 0;        // of the pass, that it belongs to
+  std::uint64_t row_end_ = 0;  // the first firing after it
   std::int64_t pass_ = 0;
   bool in_row_ = false;
   bool in_window_ = false;  // the row, by where or when it begins

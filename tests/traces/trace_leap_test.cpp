@@ -54,7 +54,7 @@ std::string first_difference(const std::string& expected, const std::string& act
 }
 
 RC_GTEST_PROP(TraceLeap, ChangesNothing, ()) {
-  const PipelineCase c = random_pipeline(Depths::kAutomatic, 2, 3);
+  const PipelineCase c = random_pipeline(Depths::kAutomatic, 2, 2);
   TraceWindow window;
   if (*rc::gen::arbitrary<bool>()) {
     const auto bound = [](std::int64_t from, std::int64_t to) {
