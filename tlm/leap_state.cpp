@@ -80,20 +80,16 @@ void Leap::materialize(Member& member, std::uint64_t periods) {
 void Leap::materialize(Link& link, std::uint64_t periods) {
   StreamBase& stream = *link.stream;
   const Cycles later(period_ * as_signed(periods));
-  const auto extend = [&](std::vector<Cycles>& dates, std::uint64_t from, std::uint64_t step,
-                          const auto& tell) {
+  const auto extend = [&](std::vector<Cycles>& dates, std::uint64_t from, std::uint64_t step) {
     std::vector<Cycles>& model = model_;
     model.clear();
     for (std::uint64_t i = from - step; i < from; ++i) model.push_back(dates[i & stream.mask_]);
     const std::uint64_t added = periods * step;
-    const std::uint64_t begin =
-        stream.listener_ != nullptr ? 0 : added - std::min<std::uint64_t>(added, stream.mask_ + 1);
+    const std::uint64_t begin = added - std::min<std::uint64_t>(added, stream.mask_ + 1);
     std::uint64_t place = begin % step;
     Cycles shift(period_ * as_signed(begin / step + 1));
     for (std::uint64_t i = begin; i < added; ++i) {
-      const Cycles date = model[place] + shift;
-      dates[(from + i) & stream.mask_] = date;
-      tell(date);
+      dates[(from + i) & stream.mask_] = model[place] + shift;
       if (++place == step) {
         place = 0;
         shift += Cycles(period_);
@@ -102,18 +98,17 @@ void Leap::materialize(Link& link, std::uint64_t periods) {
   };
   StreamStatistics& statistics = stream.statistics_;
   if (link.writes != 0) {
-    extend(stream.write_dates_, statistics.written, link.writes, [&](Cycles date) {
-      if (stream.listener_ != nullptr) stream.listener_->written(stream, date);
-    });
+    extend(stream.write_dates_, statistics.written, link.writes);
+    if (stream.listener_ != nullptr)
+      stream.listener_->written_again(stream, model_, Cycles(period_), periods);
     statistics.written += periods * link.writes;
     statistics.blocked_on_full += link.blocked * as_signed(periods);
     stream.last_write_ = stream.write_date(statistics.written - 1);
     stream.reader_waits_ = false;
   }
   if (link.reads != 0) {
-    extend(stream.read_dates_, statistics.read, link.reads, [&](Cycles date) {
-      if (stream.listener_ != nullptr) stream.listener_->read(stream, date);
-    });
+    extend(stream.read_dates_, statistics.read, link.reads);
+    if (stream.listener_ != nullptr) stream.listener_->read_again(stream, model_, Cycles(period_), periods);
     statistics.read += periods * link.reads;
     statistics.starved_on_empty += link.starved * as_signed(periods);
     stream.last_read_ = stream.read_date(statistics.read - 1);

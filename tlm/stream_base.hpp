@@ -62,6 +62,27 @@ class StreamListener {
   virtual ~StreamListener() = default;
   virtual void written(const StreamBase& stream, Cycles cycle) = 0;
   virtual void read(const StreamBase& stream, Cycles cycle) = 0;
+  /// Writes (reads) in the cycles `period` again, `times` times: the first time `every` cycles later, each
+  /// further time `every` cycles after the one before. Who needs only some of them need not go through all.
+  virtual void written_again(const StreamBase& stream, const std::vector<Cycles>& period, Cycles every,
+                             std::uint64_t times) {
+    go_through(period, every, times, [&](Cycles cycle) { written(stream, cycle); });
+  }
+  virtual void read_again(const StreamBase& stream, const std::vector<Cycles>& period, Cycles every,
+                          std::uint64_t times) {
+    go_through(period, every, times, [&](Cycles cycle) { read(stream, cycle); });
+  }
+
+ protected:
+  template <class Action>
+  static void go_through(const std::vector<Cycles>& period, Cycles every, std::uint64_t times,
+                         const Action& action) {
+    Cycles later(0);
+    for (std::uint64_t i = 0; i < times; ++i) {
+      later += every;
+      for (const Cycles cycle : period) action(cycle + later);
+    }
+  }
 };
 
 /// The time side of a stream: when token i was written and read.

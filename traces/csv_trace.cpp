@@ -10,15 +10,15 @@ namespace {
 class Heading {
  public:
   explicit Heading(TextBuffer& out) : out_(out) {}
-  void text(const char* name, std::string_view) { put(name); }
-  void number(const char* name, std::int64_t) { put(name); }
-  void flag(const char* name, bool) { put(name); }
+  void text(std::string_view name, std::string_view) { put(name); }
+  void number(std::string_view name, std::int64_t) { put(name); }
+  void flag(std::string_view name, bool) { put(name); }
 
  private:
-  void put(const char* name) {
+  void put(std::string_view name) {
     if (!first_) out_.add(',');
     first_ = false;
-    out_.add(std::string_view(name));
+    out_.add(name);
   }
   TextBuffer& out_;
   bool first_ = true;
@@ -27,44 +27,32 @@ class Heading {
 // One line. No name of a part has a comma or a quote.
 class Line {
  public:
-  explicit Line(TextBuffer& out) : out_(out) {}
-  void text(const char*, std::string_view value) {
-    separate();
-    out_.add(value);
+  explicit Line(TextBuffer& out) : out_(out), at_(out.room(kMost)) {}
+  ~Line() {
+    at_[-1] = '\n';  // in the place of the last comma
+    out_.added_until(at_);
   }
-  void number(const char*, std::int64_t value) {
-    separate();
-    out_.add(value);
-  }
-  void flag(const char*, bool value) {
-    separate();
-    out_.add(value ? '1' : '0');
-  }
+  Line(const Line&) = delete;
+  Line& operator=(const Line&) = delete;
+
+  void text(std::string_view, std::string_view value) { at_ = put(put(at_, value), ","); }
+  void number(std::string_view, std::int64_t value) { at_ = put(put(at_, value), ","); }
+  void flag(std::string_view, bool value) { at_ = put(at_, value ? "1," : "0,"); }
 
  private:
-  void separate() {
-    if (!first_) out_.add(',');
-    first_ = false;
-  }
+  static constexpr std::size_t kMost = 2048;
+
   TextBuffer& out_;
-  bool first_ = true;
+  char* at_;
 };
 
 }  // namespace
 
 template <class Event>
 void CsvTrace::open_table() {
-  const char* const table = trace_columns::table_of(Event{});
-  TextBuffer& out = tables_.emplace(table, TextBuffer(open_(table))).first->second;
-  // Names do not depend on values, but a part must have one.
-  TraceParts parts;
-  parts.stages.resize(1);
-  parts.ports.resize(1);
-  Event event{};
-  if constexpr (std::is_same_v<Event, StageRow> || std::is_same_v<Event, StageFiring>) event.stage = 0;
-  if constexpr (std::is_same_v<Event, PortRow> || std::is_same_v<Event, BurstTransfer>) event.port = 0;
+  TextBuffer& out = table<Event>().emplace(open_(std::string(trace_columns::table_of(Event{}))));
   Heading heading(out);
-  trace_columns::put(heading, parts, event);
+  trace_columns::put(heading, {}, Event{});  // names do not depend on values
   out.add('\n');
 }
 
@@ -82,15 +70,20 @@ void CsvTrace::begin(const TraceParts& parts) {
 
 template <class Event>
 void CsvTrace::put(const Event& event) {
-  TextBuffer& out = tables_.find(trace_columns::table_of(event))->second;
-  Line line(out);
+  Line line(*table<Event>());
   trace_columns::put(line, parts_, event);
-  out.add('\n');
-  out.write_if_full();
 }
 
+void CsvTrace::row(const StageRow& row) { put(row); }
+void CsvTrace::fifo(const FifoSpan& span) { put(span); }
+void CsvTrace::port_row(const PortRow& row) { put(row); }
+void CsvTrace::frame(const FrameRecord& record) { put(record); }
+void CsvTrace::firing(const StageFiring& firing) { put(firing); }
+void CsvTrace::token(const TokenTransfer& token) { put(token); }
+void CsvTrace::burst(const BurstTransfer& burst) { put(burst); }
+
 void CsvTrace::end(Picoseconds, const std::vector<EndlessWait>&) {
-  for (auto& [table, out] : tables_) out.write();
+  std::apply([](auto&... tables) { ((tables.out ? tables.out->write() : void()), ...); }, tables_);
 }
 
 }  // namespace parallax

@@ -2,32 +2,41 @@
 #pragma once
 
 #include <functional>
-#include <map>
+#include <optional>
 #include <string>
+#include <tuple>
 
 #include "traces/text_buffer.hpp"
 #include "traces/trace_sink.hpp"
 
 namespace parallax {
 
-/// Writes a trace as tables, a file each, one line an event (trace_columns.hpp): rows, fifos, ports, frames; of a trace
-/// of tokens also firings, tokens, bursts. A table without an event has its heading only.
+/// Writes a trace as tables, a file each, one line an event (trace_columns.hpp): rows, fifos, ports, frames;
+/// of a trace of tokens also firings, tokens, bursts. A table without an event has its heading only.
 class CsvTrace final : public TraceSink {
  public:
   /// `open` is called with the name of each table.
   explicit CsvTrace(std::function<ByteSink(const std::string& table)> open) : open_(std::move(open)) {}
 
   void begin(const TraceParts& parts) override;
-  void row(const StageRow& row) override { put(row); }
-  void fifo(const FifoSpan& span) override { put(span); }
-  void port_row(const PortRow& row) override { put(row); }
-  void frame(const FrameRecord& record) override { put(record); }
-  void firing(const StageFiring& firing) override { put(firing); }
-  void token(const TokenTransfer& token) override { put(token); }
-  void burst(const BurstTransfer& burst) override { put(burst); }
+  void row(const StageRow& row) override;
+  void fifo(const FifoSpan& span) override;
+  void port_row(const PortRow& row) override;
+  void frame(const FrameRecord& record) override;
+  void firing(const StageFiring& firing) override;
+  void token(const TokenTransfer& token) override;
+  void burst(const BurstTransfer& burst) override;
   void end(Picoseconds time, const std::vector<EndlessWait>& waits) override;
 
  private:
+  template <class Event>
+  struct Table {
+    std::optional<TextBuffer> out;
+  };
+  template <class Event>
+  std::optional<TextBuffer>& table() {
+    return std::get<Table<Event>>(tables_).out;
+  }
   template <class Event>
   void put(const Event& event);
   template <class Event>
@@ -35,7 +44,9 @@ class CsvTrace final : public TraceSink {
 
   std::function<ByteSink(const std::string&)> open_;
   TraceParts parts_;
-  std::map<const char*, TextBuffer> tables_;  // by the name that trace_columns gives, the same pointer each time
+  std::tuple<Table<StageRow>, Table<FifoSpan>, Table<PortRow>, Table<FrameRecord>, Table<StageFiring>,
+             Table<TokenTransfer>, Table<BurstTransfer>>
+      tables_;
 };
 
 }  // namespace parallax

@@ -4,9 +4,6 @@
 namespace parallax {
 namespace {
 
-Picoseconds token_date(const TokenTransfer& token) { return token.begin; }
-void tell_token(const TokenTransfer& token, TraceSink& sink) { sink.token(token); }
-
 // Whether a span holds one level all the time.
 bool is_still(const FifoSpan& span) {
   return span.written == 0 && span.freed == 0 && span.token_cycles == span.level * span.cycles;
@@ -14,19 +11,16 @@ bool is_still(const FifoSpan& span) {
 
 }  // namespace
 
-FifoTrace::FifoTrace(StreamBase& stream, PartId id, const std::shared_ptr<const RowEnds>& rows,
-                     const TraceWindow& window, bool tokens)
+FifoTrace::FifoTrace(const StreamBase& stream, PartId id, const std::shared_ptr<const RowEnds>& rows,
+                     const TraceWindow& window)
     : stream_(stream),
       id_(id),
       window_(window),
       spans_([](const FifoSpan& span) { return span.end; },
-             [](const FifoSpan& span, TraceSink& sink) { sink.fifo(span); }),
-      written_(token_date, tell_token),
-      read_(token_date, tell_token) {
-  if (rows) {
-    for (Side* side : {&sampled_writes_, &sampled_reads_, &token_writes_, &token_reads_}) side->rows.emplace(rows);
-  }
-  if (tokens) stream.listen(this);
+             [](const FifoSpan& span, TraceSink& sink) { sink.fifo(span); }) {
+  if (!rows) return;
+  writes_.emplace(rows);
+  reads_.emplace(rows);
 }
 
 void FifoTrace::sample() {
@@ -35,8 +29,8 @@ void FifoTrace::sample() {
   const ClockDomain& clock = stream_.writer_clock();
   FifoSpan span;
   span.stream = id_;
-  span.begin = clock.date_of(last_.until);
-  span.end = clock.date_of(fill.until);
+  span.begin = last_date_;
+  span.end = last_date_ = clock.date_of(fill.until);
   span.cycles = static_cast<std::uint64_t>((fill.until - last_.until).count());
   span.token_cycles = fill.token_cycles - last_.token_cycles;
   span.full_cycles = fill.full_cycles - last_.full_cycles;
@@ -45,10 +39,10 @@ void FifoTrace::sample() {
   span.freed = fill.freed - last_.freed;
   span.level = fill.level();
   // In the window is what one of its sides does in it.
-  const bool inside = window_.contains(sampled_writes_.place(), span.begin, span.end) ||
-                      window_.contains(sampled_reads_.place(), span.begin, span.end);
-  sampled_writes_.advance(span.written);
-  sampled_reads_.advance(span.freed);
+  const bool inside = window_.contains(place(writes_), span.begin, span.end) ||
+                      window_.contains(place(reads_), span.begin, span.end);
+  if (writes_) writes_->advance(span.written);
+  if (reads_) reads_->advance(span.freed);
   last_ = fill;
   if (has_pending_ && inside && is_still(span) && is_still(pending_) && span.level == pending_.level) {
     pending_.end = span.end;
@@ -73,26 +67,6 @@ void FifoTrace::push_pending() {
 void FifoTrace::finish() {
   sample();
   push_pending();
-}
-
-void FifoTrace::written(const StreamBase& stream, Cycles cycle) {
-  push(written_, token_writes_, false, stream.writer_clock(), cycle);
-}
-
-void FifoTrace::read(const StreamBase& stream, Cycles cycle) {
-  push(read_, token_reads_, true, stream.reader_clock(), cycle);
-}
-
-void FifoTrace::push(EventLane<TokenTransfer>& lane, Side& side, bool is_read, const ClockDomain& clock,
-                     Cycles cycle) {
-  TokenTransfer token;
-  token.stream = id_;
-  token.read = is_read;
-  token.place = side.place();
-  side.advance(1);
-  token.begin = clock.date_of(cycle);
-  token.end = clock.date_of(cycle + Cycles(1));
-  if (window_.contains(token.place, token.begin, token.end)) lane.push(token);
 }
 
 }  // namespace parallax

@@ -8,32 +8,38 @@
 namespace parallax {
 namespace {
 
-// The members of one event; no name of a part needs to be escaped.
-class Members {
+// One event; no name of a part needs to be escaped.
+class Object {
  public:
-  explicit Members(TextBuffer& out) : out_(out) {}
-  void text(const char* name, std::string_view value) {
-    put(name);
-    out_.add('"');
-    out_.add(value);
-    out_.add('"');
+  Object(TextBuffer& out, bool first, std::string_view table) : out_(out), at_(out.room(kMost)) {
+    at_ = put(at_, first ? "\n{\"table\":\"" : ",\n{\"table\":\"");
+    at_ = put(put(at_, table), "\"");
   }
-  void number(const char* name, std::int64_t value) {
-    put(name);
-    out_.add(value);
+  ~Object() { out_.added_until(put(at_, "}")); }
+  Object(const Object&) = delete;
+  Object& operator=(const Object&) = delete;
+
+  [[gnu::always_inline]] void text(std::string_view name, std::string_view value) {
+    begin(name);
+    at_ = put(put(put(at_, "\""), value), "\"");
   }
-  void flag(const char* name, bool value) {
-    put(name);
-    out_.add(std::string_view(value ? "true" : "false"));
+  [[gnu::always_inline]] void number(std::string_view name, std::int64_t value) {
+    begin(name);
+    at_ = put(at_, value);
+  }
+  [[gnu::always_inline]] void flag(std::string_view name, bool value) {
+    begin(name);
+    at_ = value ? put(at_, "true") : put(at_, "false");
   }
 
  private:
-  void put(const char* name) {
-    out_.add(std::string_view(",\""));
-    out_.add(std::string_view(name));
-    out_.add(std::string_view("\":"));
-  }
+  static constexpr std::size_t kMost = 2048;
+
+  // Of constant length where this is inlined.
+  [[gnu::always_inline]] void begin(std::string_view name) { at_ = put(put(put(at_, ",\""), name), "\":"); }
+
   TextBuffer& out_;
+  char* at_;
 };
 
 }  // namespace
@@ -41,7 +47,8 @@ class Members {
 void JsonTrace::begin(const TraceParts& parts) {
   parts_ = parts;
   auto stages = nlohmann::ordered_json::array();
-  for (const TraceParts::StagePart& stage : parts.stages) stages.push_back({{"name", stage.name}, {"path", stage.path}});
+  for (const TraceParts::StagePart& stage : parts.stages)
+    stages.push_back({{"name", stage.name}, {"path", stage.path}});
   auto streams = nlohmann::ordered_json::array();
   for (const TraceParts::StreamPart& stream : parts.streams) {
     streams.push_back({{"name", stream.name},
@@ -52,8 +59,9 @@ void JsonTrace::begin(const TraceParts& parts) {
                        {"reader", stream.reader}});
   }
   auto ports = nlohmann::ordered_json::array();
-  for (const TraceParts::PortPart& port : parts.ports) ports.push_back({{"name", port.name}, {"path", port.path}});
-  const nlohmann::ordered_json head{{"time_unit", "ps"},   {"frames", parts.frames}, {"rows", parts.rows},
+  for (const TraceParts::PortPart& port : parts.ports)
+    ports.push_back({{"name", port.name}, {"path", port.path}});
+  const nlohmann::ordered_json head{{"time_unit", "ps"},    {"frames", parts.frames}, {"rows", parts.rows},
                                     {"tiles", parts.tiles}, {"stages", stages},       {"streams", streams},
                                     {"ports", ports}};
   std::string text = head.dump(1);
@@ -64,15 +72,18 @@ void JsonTrace::begin(const TraceParts& parts) {
 
 template <class Event>
 void JsonTrace::put(const Event& event) {
-  out_.add(std::string_view(first_ ? "\n{\"table\":\"" : ",\n{\"table\":\""));
+  Object object(out_, first_, trace_columns::table_of(event));
   first_ = false;
-  out_.add(std::string_view(trace_columns::table_of(event)));
-  out_.add('"');
-  Members members(out_);
-  trace_columns::put(members, parts_, event);
-  out_.add('}');
-  out_.write_if_full();
+  trace_columns::put(object, parts_, event);
 }
+
+void JsonTrace::row(const StageRow& row) { put(row); }
+void JsonTrace::fifo(const FifoSpan& span) { put(span); }
+void JsonTrace::port_row(const PortRow& row) { put(row); }
+void JsonTrace::frame(const FrameRecord& record) { put(record); }
+void JsonTrace::firing(const StageFiring& firing) { put(firing); }
+void JsonTrace::token(const TokenTransfer& token) { put(token); }
+void JsonTrace::burst(const BurstTransfer& burst) { put(burst); }
 
 void JsonTrace::end(Picoseconds time, const std::vector<EndlessWait>& waits) {
   auto list = nlohmann::ordered_json::array();

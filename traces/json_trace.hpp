@@ -6,20 +6,20 @@
 
 namespace parallax {
 
-/// Writes a trace as one JSON object: the parts, then "events", one a line, each with its "table" and the columns of
-/// CsvTrace; "waits" for a machine that is stuck.
+/// Writes a trace as one JSON object: the parts, then "events", one a line, each with its "table" and the
+/// columns of CsvTrace; "waits" for a machine that is stuck.
 class JsonTrace final : public TraceSink {
  public:
   explicit JsonTrace(ByteSink sink) : out_(std::move(sink)) {}
 
   void begin(const TraceParts& parts) override;
-  void row(const StageRow& row) override { put(row); }
-  void fifo(const FifoSpan& span) override { put(span); }
-  void port_row(const PortRow& row) override { put(row); }
-  void frame(const FrameRecord& record) override { put(record); }
-  void firing(const StageFiring& firing) override { put(firing); }
-  void token(const TokenTransfer& token) override { put(token); }
-  void burst(const BurstTransfer& burst) override { put(burst); }
+  void row(const StageRow& row) override;
+  void fifo(const FifoSpan& span) override;
+  void port_row(const PortRow& row) override;
+  void frame(const FrameRecord& record) override;
+  void firing(const StageFiring& firing) override;
+  void token(const TokenTransfer& token) override;
+  void burst(const BurstTransfer& burst) override;
   void end(Picoseconds time, const std::vector<EndlessWait>& waits) override;
 
  private:

@@ -20,8 +20,7 @@ PortTrace::PortTrace(BusMaster& master, PartId id, const std::shared_ptr<const R
       cursor_(rows),
       rows_([](const PortRow& row) { return row.end; },
             [](const PortRow& row, TraceSink& sink) { sink.port_row(row); }),
-      requests_([](const BurstRequest& request) { return request.time; },
-                [](const BurstRequest& request, TraceSink& sink) { sink.requested(request); }),
+      requests_(id),
       bursts_([](const BurstTransfer& burst) { return burst.answered; },
               [](const BurstTransfer& burst, TraceSink& sink) { sink.burst(burst); }) {
   row_.port = id;
@@ -29,8 +28,21 @@ PortTrace::PortTrace(BusMaster& master, PartId id, const std::shared_ptr<const R
   master.listen(*this);
 }
 
+Picoseconds PortTrace::Requests::tell(const TraceSinks& sinks) {
+  const Picoseconds date = next();
+  bool inside = false;
+  for (; next() == date; changes_.pop()) {
+    under_way_ += changes_.front().bursts;
+    inside |= changes_.front().inside;
+  }
+  if (inside) {
+    for (TraceSink* sink : sinks) sink->requests({port_, date, under_way_});
+  }
+  return next();
+}
+
 void PortTrace::requested(const BusMaster&, const sc_core::sc_time& time) {
-  if (wants_bursts_) requests_.push({id_, date(time)});
+  if (wants_bursts_) requests_.add(date(time), 1, window_.contains(cursor_.place(), date(time), date(time)));
 }
 
 void PortTrace::transferred(const BusMaster&, const BusTransfer& transfer) {
@@ -42,7 +54,10 @@ void PortTrace::transferred(const BusMaster&, const BusTransfer& transfer) {
   burst.bytes = transfer.bytes;
   burst.requested = date(transfer.requested);
   burst.answered = date(transfer.answered);
-  if (wants_bursts_ && window_.contains(burst.place, burst.requested, burst.answered)) bursts_.push(burst);
+  if (wants_bursts_) {
+    if (window_.contains(burst.place, burst.requested, burst.answered)) bursts_.push(burst);
+    requests_.add(burst.answered, -1, window_.contains(burst.place, burst.answered, burst.answered));
+  }
   // A burst counts for the row in which it begins; its bytes for the rows that they belong to.
   if (row_.bursts == 0) row_.begin = std::max(row_.begin, burst.requested);
   ++row_.bursts;

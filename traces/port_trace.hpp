@@ -14,8 +14,8 @@ namespace parallax {
 class PortTrace final : public BusListener {
  public:
   /// `rows`: of the bytes, in the order in which they are asked for.
-  PortTrace(BusMaster& master, PartId id, const std::shared_ptr<const RowEnds>& rows, const TraceWindow& window,
-            bool bursts);
+  PortTrace(BusMaster& master, PartId id, const std::shared_ptr<const RowEnds>& rows,
+            const TraceWindow& window, bool bursts);
 
   TraceLane& rows() { return rows_; }
   TraceLane& requests() { return requests_; }
@@ -23,6 +23,28 @@ class PortTrace final : public BusListener {
   void finish();
 
  private:
+  // How many bursts are under way.
+  class Requests final : public TraceLane {
+   public:
+    explicit Requests(PartId port) : port_(port) {}
+    void add(Picoseconds time, std::int64_t bursts, bool inside) { changes_.push({time, bursts, inside}); }
+    Picoseconds next() const override { return changes_.empty() ? kNever : changes_.date(); }
+    Picoseconds tell(const TraceSinks& sinks) override;
+
+   private:
+    struct Change {
+      Picoseconds time;
+      std::int64_t bursts;
+      bool inside;  // the window
+    };
+    struct ChangeDate {
+      Picoseconds operator()(const Change& change) const { return change.time; }
+    };
+    const PartId port_;
+    std::int64_t under_way_ = 0;
+    DateQueue<Change, ChangeDate> changes_{ChangeDate{}};
+  };
+
   void requested(const BusMaster& master, const sc_core::sc_time& time) override;
   void transferred(const BusMaster& master, const BusTransfer& transfer) override;
 
@@ -33,7 +55,7 @@ class PortTrace final : public BusListener {
   PortRow row_;  // under way
 
   EventLane<PortRow> rows_;
-  EventLane<BurstRequest> requests_;
+  Requests requests_;
   EventLane<BurstTransfer> bursts_;
 };
 

@@ -11,22 +11,22 @@ Picoseconds now() { return Picoseconds(static_cast<std::int64_t>(sc_core::sc_tim
 }  // namespace
 
 Recorder::Recorder(const sc_core::sc_module_name& name, const RecorderConfig& config, Dataflow& dataflow,
-                   std::function<void()> add_parts)
+                   Pace& pace, std::function<void()> add_parts)
     : sc_module(name),
       config_(config),
       dataflow_(dataflow),
       add_parts_(std::move(add_parts)),
       steps_([](const Step& step) { return step.time; },
              [](const Step& step, TraceSink& sink) { sink.frame_step(step.frame, step.step, step.time); }),
-      frames_([](const FrameRecord& record) { return record.at[static_cast<std::size_t>(FrameStep::kAtHost)]; },
-              [](const FrameRecord& record, TraceSink& sink) { sink.frame(record); }) {
+      frames_(
+          [](const FrameRecord& record) { return record.at[static_cast<std::size_t>(FrameStep::kAtHost)]; },
+          [](const FrameRecord& record, TraceSink& sink) { sink.frame(record); }) {
   parts_.rows = config.rows;
   parts_.tiles = config.tiles;
   parts_.frames = config.frames;
   parts_.tokens = config.tokens;
   lanes_ = {&steps_, &frames_};
-  SC_HAS_PROCESS(Recorder);
-  SC_METHOD(go_on);
+  pace.add(config.pace, [this] { go_on(); });
 }
 
 void Recorder::add(StreamBase& stream, const std::shared_ptr<const RowEnds>& rows) {
@@ -41,11 +41,8 @@ void Recorder::add(StreamBase& stream, const std::shared_ptr<const RowEnds>& row
   parts_.streams.push_back(part);
   stream_ids_[&stream] = id;
   streams_.push_back(&stream);
-  FifoTrace& trace = fifos_.emplace_back(stream, id, rows, config_.window, config_.tokens);
-  lanes_.push_back(&trace.spans());
-  if (!config_.tokens) return;
-  lanes_.push_back(&trace.written());
-  lanes_.push_back(&trace.read());
+  lanes_.push_back(&fifos_.emplace_back(stream, id, rows, config_.window).spans());
+  if (config_.tokens) lanes_.push_back(&tokens_.emplace_back(stream, id, rows, config_.window));
 }
 
 void Recorder::add(Stage& stage, const StagePorts& ports) {
@@ -94,9 +91,8 @@ void Recorder::go_on() {
   for (FifoTrace& fifo : fifos_) fifo.sample();
   // Streams that are in a leap tell of their tokens when it has come to an end, or when they are asked.
   if (config_.tokens) dataflow_.bring_up_to_date();
-  tell_until(now(), lanes_, sinks_);
-  // A machine that has come to rest must not be kept going by who looks at it.
-  if (sc_core::sc_pending_activity()) next_trigger(config_.pace);
+  // Events of rows are few: to look for them costs more than to keep some.
+  if (config_.tokens || ++looks_ % kLooksBetween == 0) tell_until(now(), lanes_, sinks_);
 }
 
 void Recorder::finish(const std::vector<EndlessWait>& waits) {

@@ -12,8 +12,10 @@
 
 #include "tlm/dataflow.hpp"
 #include "traces/fifo_trace.hpp"
+#include "traces/pace.hpp"
 #include "traces/port_trace.hpp"
 #include "traces/stage_trace.hpp"
+#include "traces/token_trace.hpp"
 #include "traces/trace_window.hpp"
 
 namespace parallax {
@@ -21,22 +23,22 @@ namespace parallax {
 /// What a recorder tells of.
 struct RecorderConfig {
   TraceWindow window{};
-  bool tokens = false;         ///< every firing, token and burst, not rows alone
-  std::int32_t rows = 0;       ///< of the image
-  std::int32_t tiles = 1;      ///< that a frame is processed in
-  std::int64_t frames = 0;     ///< of the run
-  sc_core::sc_time pace;       ///< how often FIFOs are looked at, and sinks told
+  bool tokens = false;      ///< every firing, token and burst, not rows alone
+  std::int32_t rows = 0;    ///< of the image
+  std::int32_t tiles = 1;   ///< that a frame is processed in
+  std::int64_t frames = 0;  ///< of the run
+  sc_core::sc_time pace;    ///< how often FIFOs are looked at, and sinks told
 };
 
-/// Listens to the parts that it is given and tells sinks, in the order of the dates, what they do. What nobody is
-/// given to is not listened to, and computed for nobody. Dates are known ahead of kernel time, part by part; they are
-/// kept until kernel time has come to them, so that memory stays flat however long the run.
+/// Listens to the parts that it is given and tells sinks, in the order of the dates, what they do. What
+/// nobody is given to is not listened to, and computed for nobody. Dates are known ahead of kernel time, part
+/// by part; they are kept until kernel time has come to them, so that memory stays flat however long the run.
 ///
 /// Parts are added when all ports are bound, sinks before; they must outlive the simulation.
 class Recorder final : public sc_core::sc_module {
  public:
   /// `add_parts` is called when all ports are bound, before the simulation starts.
-  Recorder(const sc_core::sc_module_name& name, const RecorderConfig& config, Dataflow& dataflow,
+  Recorder(const sc_core::sc_module_name& name, const RecorderConfig& config, Dataflow& dataflow, Pace& pace,
            std::function<void()> add_parts);
 
   /// `rows`: of the tokens; none when they belong to no row.
@@ -59,6 +61,8 @@ class Recorder final : public sc_core::sc_module {
     Picoseconds time;
   };
 
+  static constexpr std::uint64_t kLooksBetween = 8;
+
   void start_of_simulation() override;
   void go_on();
   PartId id_of(const StreamBase* stream) const;
@@ -71,11 +75,13 @@ class Recorder final : public sc_core::sc_module {
   std::vector<const StreamBase*> streams_;
   std::unordered_map<const StreamBase*, PartId> stream_ids_;
   std::deque<FifoTrace> fifos_;
+  std::deque<TokenTrace> tokens_;
   std::deque<StageTrace> stages_;
   std::deque<PortTrace> ports_;
   EventLane<Step> steps_;
   EventLane<FrameRecord> frames_;
   std::vector<TraceLane*> lanes_;
+  std::uint64_t looks_ = 0;
 };
 
 }  // namespace parallax

@@ -17,10 +17,16 @@ RowEnds equal_rows(std::uint64_t units_of_a_row, std::int32_t rows, std::int32_t
 void RowCursor::advance(std::uint64_t units) {
   at_ += units;
   if (at_ < ends_->ends[row_]) return;
+  // As a rule it is in the next row, or in the one after that.
+  for (int i = 0; i < 2; ++i) {
+    if (++row_ == ends_->ends.size()) break;
+    if (at_ < ends_->ends[row_]) return;
+  }
   const std::uint64_t frame = ends_->frame();
   frame_ += static_cast<std::int64_t>(at_ / frame);
   at_ %= frame;
-  row_ = static_cast<std::size_t>(std::upper_bound(ends_->ends.begin(), ends_->ends.end(), at_) - ends_->ends.begin());
+  row_ = static_cast<std::size_t>(std::upper_bound(ends_->ends.begin(), ends_->ends.end(), at_) -
+                                  ends_->ends.begin());
 }
 
 }  // namespace parallax

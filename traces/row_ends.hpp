@@ -9,8 +9,8 @@
 
 namespace parallax {
 
-/// Where the rows of a frame end in what passes a stream or a port: tokens or bytes of the frame until the end of each
-/// row, tile by tile.
+/// Where the rows of a frame end in what passes a stream or a port: tokens or bytes of the frame until the
+/// end of each row, tile by tile.
 struct RowEnds {
   std::vector<std::uint64_t> ends;
   std::int32_t rows_of_a_tile = 1;

@@ -25,8 +25,8 @@ struct StagePorts {
 /// A row of a stage: the firings of its schedule from `firing` until the next row's.
 struct ScheduleRow {
   std::uint64_t firing = 0;
-  std::int32_t row = 0;         ///< of the pass: the row that is read, or, when all are, the row that is written
-  bool draining = false;        ///< all rows are read
+  std::int32_t row = 0;   ///< of the pass: the row that is read, or, when all are, the row that is written
+  bool draining = false;  ///< all rows are read
   std::int32_t row_written = -1;  ///< of the pass: the last row of which it writes something; -1: none
 };
 
@@ -36,8 +36,8 @@ struct ScheduleRows {
   std::uint64_t firings = 0;
 };
 
-/// A row begins with the firing that reads its first token; when all rows are read, with the firing that writes the
-/// first token of a row.
+/// A row begins with the firing that reads its first token; when all rows are read, with the firing that
+/// writes the first token of a row.
 ScheduleRows rows_of(const Schedule& schedule, const StagePorts& ports);
 
 }  // namespace parallax

@@ -14,8 +14,8 @@ std::int32_t rows_of_a_tile(const StagePorts& ports) {
 
 }  // namespace
 
-StageTrace::StageTrace(Stage& stage, PartId id, const StagePorts& ports, const TraceWindow& window, bool firings,
-                       StreamId stream_id)
+StageTrace::StageTrace(Stage& stage, PartId id, const StagePorts& ports, const TraceWindow& window,
+                       bool firings, StreamId stream_id)
     : id_(id),
       clock_(stage.clock()),
       schedule_(rows_of(stage.schedule(), ports)),
@@ -34,26 +34,28 @@ StageTrace::StageTrace(Stage& stage, PartId id, const StagePorts& ports, const T
   stage.listen(this);
 }
 
-std::uint64_t StageTrace::until_next_row() const {
-  const bool last = row_ + 1 == schedule_.rows.size();
-  return (last ? schedule_.firings : schedule_.rows[row_ + 1].firing) - firing_;
+PartId StageTrace::id_of(const StreamBase* stream) {
+  for (const auto& [known, id] : stream_ids_) {
+    if (known == stream) return id;
+  }
+  stream_ids_.emplace_back(stream, stream_id_(stream));
+  return stream_ids_.back().second;
 }
 
 void StageTrace::repeated(const Stage&, const std::vector<FiringDates>& period, Cycles later, Cycles every,
                           std::uint64_t times) {
   while (times > 0) {
     // Whole periods before the firing with which the next row begins.
-    const std::uint64_t periods = in_row_ ? std::min(times, until_next_row() / period.size()) : 0;
+    const std::uint64_t left = until_next_row();
+    const std::uint64_t possible = times * period.size() <= left ? times : left / period.size();
+    const std::uint64_t periods = in_row_ ? possible : 0;
     const Cycles until = later + every * static_cast<std::int64_t>(periods);
-    const bool one_by_one = wants_firings_ && window_.contains(current_.place, date(period.front().free + later),
-                                                               date(period.back().start + until));
+    const bool one_by_one =
+        wants_firings_ && window_.contains(current_.place, date(period.front().free + later),
+                                           date(period.back().start + until));
     const std::uint64_t whole = one_by_one ? 0 : periods;
     if (whole > 0) {
-      for (const FiringDates& firing : period) {
-        add_waits(firing, static_cast<std::int64_t>(whole));
-        current_.time.of(firing.work) += Cycles(firing.interval) * static_cast<std::int64_t>(whole);
-      }
-      current_.time.firings += whole * period.size();
+      add_periods(period, static_cast<std::int64_t>(whole));
       firing_ += whole * period.size();
       later += every * static_cast<std::int64_t>(whole);
       free_ = period.back().start + Cycles(period.back().interval) + later - every;
@@ -74,7 +76,7 @@ void StageTrace::repeated(const Stage&, const std::vector<FiringDates>& period, 
 
 // `in_row_` is false before the first firing of a row.
 void StageTrace::note(const FiringDates& firing) {
-  add_waits(firing, 1);
+  add_waits(firing, current_.time, waits_);
   if (!in_row_) {
     if (pass_ > 0 || firing_ > 0) end_row(firing);
     begin_row(firing.start);
@@ -99,26 +101,43 @@ void StageTrace::note_firing(const FiringDates& firing) {
   event.work = firing.work;
   event.input_wait = firing.input_wait;
   event.room_wait = firing.room_wait;
-  if (firing.ready > firing.free) event.input = stream_id_(firing.input);
-  if (firing.start > firing.ready) event.room = stream_id_(firing.room);
+  if (firing.ready > firing.free) event.input = id_of(firing.input);
+  if (firing.start > firing.ready) event.room = id_of(firing.room);
   firings_.push(event);
 }
 
-void StageTrace::add_waits(const FiringDates& firing, std::int64_t times) {
-  if (firing.ready > firing.free) add_wait(firing.input_wait, firing.input, (firing.ready - firing.free) * times);
-  if (firing.start > firing.ready) add_wait(firing.room_wait, firing.room, (firing.start - firing.ready) * times);
+void StageTrace::add_wait(const Wait& wait, std::vector<Wait>& waits) {
+  const auto same = std::find_if(waits.begin(), waits.end(), [&](const Wait& known) {
+    return known.activity == wait.activity && known.stream == wait.stream;
+  });
+  if (same == waits.end()) {
+    waits.push_back(wait);
+  } else {
+    same->cycles += wait.cycles;
+  }
 }
 
-void StageTrace::add_wait(StageActivity activity, const StreamBase* stream, Cycles cycles) {
-  current_.time.of(activity) += cycles;
-  const auto same = std::find_if(waits_.begin(), waits_.end(), [&](const Wait& wait) {
-    return wait.activity == activity && wait.stream == stream;
-  });
-  if (same == waits_.end()) {
-    waits_.push_back({activity, stream, cycles});
-  } else {
-    same->cycles += cycles;
+void StageTrace::add_waits(const FiringDates& firing, StageStatistics& time, std::vector<Wait>& waits) {
+  const auto add = [&](StageActivity activity, const StreamBase* stream, Cycles cycles) {
+    if (cycles == Cycles(0)) return;
+    time.of(activity) += cycles;
+    add_wait({activity, stream, cycles}, waits);
+  };
+  add(firing.input_wait, firing.input, firing.ready - firing.free);
+  add(firing.room_wait, firing.room, firing.start - firing.ready);
+}
+
+void StageTrace::add_periods(const std::vector<FiringDates>& period, std::int64_t times) {
+  if (period_.first != period.data() || period_.begin != period.front().start) {
+    period_ = {period.data(), period.front().start, {}, {}};
+    for (const FiringDates& firing : period) {
+      add_waits(firing, period_.time, period_.waits);
+      period_.time.of(firing.work) += Cycles(firing.interval);
+      ++period_.time.firings;
+    }
   }
+  current_.time.add(period_.time, times);
+  for (const Wait& wait : period_.waits) add_wait({wait.activity, wait.stream, wait.cycles * times}, waits_);
 }
 
 void StageTrace::begin_row(Cycles start) {
@@ -130,6 +149,8 @@ void StageTrace::begin_row(Cycles start) {
     ++row_;
   }
   const ScheduleRow& row = schedule_row();
+  const bool last = row_ + 1 == schedule_.rows.size();
+  row_end_ = last ? schedule_.firings : schedule_.rows[row_ + 1].firing;
   waits_.clear();
   current_ = {};
   current_.stage = id_;
@@ -149,17 +170,17 @@ void StageTrace::end_row(const FiringDates& next) {
   current_.end = date(next.start);
   if (next.ready > next.free) {
     current_.input_wait = next.input_wait;
-    current_.input = stream_id_(next.input);
+    current_.input = id_of(next.input);
   }
   if (next.start > next.ready) {
     current_.room_wait = next.room_wait;
-    current_.room = stream_id_(next.room);
+    current_.room = id_of(next.room);
   }
-  const auto longest =
-      std::max_element(waits_.begin(), waits_.end(), [](const Wait& a, const Wait& b) { return a.cycles < b.cycles; });
+  const auto longest = std::max_element(waits_.begin(), waits_.end(),
+                                        [](const Wait& a, const Wait& b) { return a.cycles < b.cycles; });
   if (longest != waits_.end()) {
     current_.longest_wait = longest->activity;
-    current_.longest_at = stream_id_(longest->stream);
+    current_.longest_at = id_of(longest->stream);
   }
   if (in_window_) rows_.push({current_, false});
 }

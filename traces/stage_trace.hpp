@@ -12,8 +12,8 @@
 
 namespace parallax {
 
-/// Makes rows, and on request firings, of what a stage tells of its firings. Leaps are taken as they come: only where a
-/// row begins within one are firings gone through one by one, unless all are wanted.
+/// Makes rows, and on request firings, of what a stage tells of its firings. Leaps are taken as they come:
+/// only where a row begins within one are firings gone through one by one, unless all are wanted.
 class StageTrace final : public StageListener {
  public:
   /// Number of a stream.
@@ -42,13 +42,23 @@ class StageTrace final : public StageListener {
   void repeated(const Stage& stage, const std::vector<FiringDates>& period, Cycles later, Cycles every,
                 std::uint64_t times) override;
 
+  // Where the time of one period goes.
+  struct Period {
+    const FiringDates* first = nullptr;
+    Cycles begin;
+    StageStatistics time;
+    std::vector<Wait> waits;
+  };
+
   void note(const FiringDates& firing);
   void note_firing(const FiringDates& firing);
-  void add_waits(const FiringDates& firing, std::int64_t times);
-  void add_wait(StageActivity activity, const StreamBase* stream, Cycles cycles);
+  static void add_wait(const Wait& wait, std::vector<Wait>& waits);
+  static void add_waits(const FiringDates& firing, StageStatistics& time, std::vector<Wait>& waits);
+  void add_periods(const std::vector<FiringDates>& period, std::int64_t times);
   void begin_row(Cycles start);
   void end_row(const FiringDates& next);
-  std::uint64_t until_next_row() const;
+  std::uint64_t until_next_row() const { return row_end_ - firing_; }
+  PartId id_of(const StreamBase* stream);
   const ScheduleRow& schedule_row() const { return schedule_.rows[row_]; }
   Picoseconds date(Cycles cycle) const { return clock_.date_of(cycle); }
 
@@ -60,14 +70,17 @@ class StageTrace final : public StageListener {
   const TraceWindow& window_;
   const bool wants_firings_;
   const StreamId stream_id_;
+  std::vector<std::pair<const StreamBase*, PartId>> stream_ids_;  // of those asked for: a handful
 
-  std::uint64_t firing_ = 0;  // of the pass, the next one
-  std::size_t row_ = 0;       // of the pass, that it belongs to
+  std::uint64_t firing_ = 0;   // of the pass, the next one
+  std::size_t row_ = 0;        // of the pass, that it belongs to
+  std::uint64_t row_end_ = 0;  // the first firing after it
   std::int64_t pass_ = 0;
   bool in_row_ = false;
   bool in_window_ = false;  // the row, by where or when it begins
   StageRow current_;
   std::vector<Wait> waits_;
+  Period period_;   // the last one: a leap brings the same again and again
   Cycles free_{0};  // after the last firing
 
   EventLane<Event> rows_;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <fmt/format.h>
-
+#include <charconv>
 #include <cstdint>
-#include <string>
+#include <cstring>
+#include <memory>
 #include <string_view>
 #include <utility>
 
@@ -12,32 +12,55 @@
 
 namespace parallax {
 
-/// Collects text for a file, so that it is written in large pieces.
+/// Appends to `at`, where there is room, and returns where that ends.
+inline char* put(char* at, std::string_view text) {
+  std::memcpy(at, text.data(), text.size());
+  return at + text.size();
+}
+constexpr std::size_t kDigits = 20;  // of a number at most
+inline char* put(char* at, std::int64_t number) {
+  // Most numbers are counts, and most of these are small.
+  if (number >= 0 && number < 10) {
+    *at = static_cast<char>('0' + number);
+    return at + 1;
+  }
+  return std::to_chars(at, at + kDigits, number).ptr;
+}
+
+/// Collects text, or other bytes, for a file, so that it is written in large pieces.
 class TextBuffer {
  public:
-  explicit TextBuffer(ByteSink sink) : sink_(std::move(sink)) { text_.reserve(kSize + kRoom); }
+  explicit TextBuffer(ByteSink sink) : sink_(std::move(sink)), text_(std::make_unique<char[]>(kSize)) {}
 
-  void add(std::string_view text) { text_.append(text); }
-  void add(char c) { text_.push_back(c); }
-  void add(std::int64_t number) {
-    const fmt::format_int digits(number);
-    text_.append(digits.data(), digits.size());
+  void add(std::string_view text) {
+    if (text.size() > kSize - size_) {
+      write();
+      if (text.size() > kSize) return sink_(text);
+    }
+    std::memcpy(text_.get() + size_, text.data(), text.size());
+    size_ += text.size();
   }
-  /// To be called between events.
-  void write_if_full() {
-    if (text_.size() >= kSize) write();
+  void add(char c) {
+    if (size_ == kSize) write();
+    text_[size_++] = c;
   }
+  void add(std::int64_t number) { added_until(put(room(kDigits), number)); }
+  /// For who writes bytes by himself: where `most` fit, and, when they are there, where they end.
+  char* room(std::size_t most) {
+    if (kSize - size_ < most) write();
+    return text_.get() + size_;
+  }
+  void added_until(const char* end) { size_ = static_cast<std::size_t>(end - text_.get()); }
   void write() {
-    sink_(text_);
-    text_.clear();
+    if (size_ > 0) sink_({text_.get(), std::exchange(size_, 0)});
   }
 
  private:
   static constexpr std::size_t kSize = 1 << 16;
-  static constexpr std::size_t kRoom = 1 << 12;  // for an event
 
   ByteSink sink_;
-  std::string text_;
+  std::unique_ptr<char[]> text_;
+  std::size_t size_ = 0;
 };
 
 }  // namespace parallax

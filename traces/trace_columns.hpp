@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// What CSV and JSON say of each event: one description for both. A `Row` has text(), number() and flag(), each with the
-// column's name, which holds the unit. Dates are in ps, waits in cycles; frames count from 1, tiles and rows from 0.
+// What CSV and JSON say of each event: one description for both. A `Row` has text(), number() and flag(),
+// each with the column's name, which holds the unit. Dates are in ps, waits in cycles; frames count from 1,
+// tiles and rows from 0.
 #pragma once
 
 #include <string_view>
+#include <vector>
 
 #include "traces/trace_event.hpp"
 
 namespace parallax::trace_columns {
 
-inline std::string_view stream_name(const TraceParts& parts, PartId id) {
-  return id == kNoPart ? std::string_view() : parts.streams[static_cast<std::size_t>(id)].name;
+/// Of a part; empty for kNoPart.
+template <class Part>
+std::string_view name_of(const std::vector<Part>& parts, PartId id) {
+  return id == kNoPart ? std::string_view() : parts[static_cast<std::size_t>(id)].name;
 }
 
 template <class Row>
@@ -20,10 +24,10 @@ void put_place(Row& row, const TracePlace& place) {
   row.number("row", place.row);
 }
 
-inline const char* table_of(const StageRow&) { return "rows"; }
+constexpr std::string_view table_of(const StageRow&) { return "rows"; }
 template <class Row>
 void put(Row& row, const TraceParts& parts, const StageRow& event) {
-  row.text("stage", parts.stages[static_cast<std::size_t>(event.stage)].name);
+  row.text("stage", name_of(parts.stages, event.stage));
   put_place(row, event.place);
   row.flag("draining", event.draining);
   row.number("row_written", event.row_written);
@@ -32,15 +36,20 @@ void put(Row& row, const TraceParts& parts, const StageRow& event) {
   row.number("inputs_until_ps", event.inputs_until.count());
   row.number("end_ps", event.end.count());
   row.number("firings", static_cast<std::int64_t>(event.time.firings));
-  for (const StageActivity activity : kAllStageActivities) row.number(name_of(activity), event.time.of(activity).count());
-  row.text("wait", event.longest_wait == StageActivity::kBusy ? "" : name_of(event.longest_wait));
-  row.text("wait_at", stream_name(parts, event.longest_at));
+  row.number("busy", event.time.busy.count());
+  row.number("starved", event.time.starved.count());
+  row.number("blocked", event.time.blocked.count());
+  row.number("memory", event.time.memory.count());
+  row.number("synchroniser", event.time.synchroniser.count());
+  row.number("blanking", event.time.blanking.count());
+  row.text("wait", event.longest_wait == StageActivity::kBusy ? "" : parallax::name_of(event.longest_wait));
+  row.text("wait_at", name_of(parts.streams, event.longest_at));
 }
 
-inline const char* table_of(const FifoSpan&) { return "fifos"; }
+constexpr std::string_view table_of(const FifoSpan&) { return "fifos"; }
 template <class Row>
 void put(Row& row, const TraceParts& parts, const FifoSpan& event) {
-  row.text("stream", stream_name(parts, event.stream));
+  row.text("stream", name_of(parts.streams, event.stream));
   row.number("begin_ps", event.begin.count());
   row.number("end_ps", event.end.count());
   row.number("cycles", static_cast<std::int64_t>(event.cycles));
@@ -52,10 +61,10 @@ void put(Row& row, const TraceParts& parts, const FifoSpan& event) {
   row.number("level", static_cast<std::int64_t>(event.level));
 }
 
-inline const char* table_of(const PortRow&) { return "ports"; }
+constexpr std::string_view table_of(const PortRow&) { return "ports"; }
 template <class Row>
 void put(Row& row, const TraceParts& parts, const PortRow& event) {
-  row.text("port", parts.ports[static_cast<std::size_t>(event.port)].name);
+  row.text("port", name_of(parts.ports, event.port));
   put_place(row, event.place);
   row.number("begin_ps", event.begin.count());
   row.number("end_ps", event.end.count());
@@ -65,48 +74,54 @@ void put(Row& row, const TraceParts& parts, const PortRow& event) {
   row.number("latency_longest_ps", event.longest_latency.count());
 }
 
-inline const char* table_of(const FrameRecord&) { return "frames"; }
+constexpr std::string_view table_of(const FrameRecord&) { return "frames"; }
 template <class Row>
 void put(Row& row, const TraceParts&, const FrameRecord& event) {
-  static constexpr const char* kColumns[kFrameSteps] = {
-      "exposed_ps",         "first_byte_ps",     "in_memory_ps",         "core_started_ps",
-      "first_disparity_ps", "last_disparity_ps", "results_in_memory_ps", "at_host_ps"};
+  const auto at = [&event](FrameStep step) { return event.at[static_cast<std::size_t>(step)].count(); };
   row.number("frame", event.frame + 1);
-  for (std::size_t step = 0; step < kFrameSteps; ++step) row.number(kColumns[step], event.at[step].count());
+  row.number("exposed_ps", at(FrameStep::kExposed));
+  row.number("first_byte_ps", at(FrameStep::kFirstByte));
+  row.number("in_memory_ps", at(FrameStep::kInMemory));
+  row.number("core_started_ps", at(FrameStep::kCoreStarted));
+  row.number("first_disparity_ps", at(FrameStep::kFirstDisparity));
+  row.number("last_disparity_ps", at(FrameStep::kLastDisparity));
+  row.number("results_in_memory_ps", at(FrameStep::kResultsInMemory));
+  row.number("at_host_ps", at(FrameStep::kAtHost));
 }
 
-inline const char* table_of(const StageFiring&) { return "firings"; }
+constexpr std::string_view table_of(const StageFiring&) { return "firings"; }
 template <class Row>
 void put(Row& row, const TraceParts& parts, const StageFiring& event) {
-  row.text("stage", parts.stages[static_cast<std::size_t>(event.stage)].name);
+  row.text("stage", name_of(parts.stages, event.stage));
   put_place(row, event.place);
   row.number("free_ps", event.free.count());
   row.number("ready_ps", event.ready.count());
   row.number("start_ps", event.start.count());
   row.number("end_ps", event.end.count());
-  row.text("work", name_of(event.work));
+  row.text("work", parallax::name_of(event.work));
   const bool starved = event.ready > event.free;
-  row.text("input_wait", starved ? name_of(event.input_wait) : "");
-  row.text("input", stream_name(parts, event.input));
+  row.text("input_wait", starved ? parallax::name_of(event.input_wait) : "");
+  row.text("input", name_of(parts.streams, event.input));
   const bool blocked = event.start > event.ready;
-  row.text("room_wait", blocked ? name_of(event.room_wait) : "");
-  row.text("room", stream_name(parts, event.room));
+  row.text("room_wait", blocked ? parallax::name_of(event.room_wait) : "");
+  row.text("room", name_of(parts.streams, event.room));
 }
 
-inline const char* table_of(const TokenTransfer&) { return "tokens"; }
+constexpr std::string_view table_of(const TokenTransfer&) { return "tokens"; }
 template <class Row>
 void put(Row& row, const TraceParts& parts, const TokenTransfer& event) {
-  row.text("stream", stream_name(parts, event.stream));
+  row.text("stream", name_of(parts.streams, event.stream));
   row.text("side", event.read ? "read" : "write");
   put_place(row, event.place);
   row.number("begin_ps", event.begin.count());
   row.number("end_ps", event.end.count());
+  row.number("level", static_cast<std::int64_t>(event.level));
 }
 
-inline const char* table_of(const BurstTransfer&) { return "bursts"; }
+constexpr std::string_view table_of(const BurstTransfer&) { return "bursts"; }
 template <class Row>
 void put(Row& row, const TraceParts& parts, const BurstTransfer& event) {
-  row.text("port", parts.ports[static_cast<std::size_t>(event.port)].name);
+  row.text("port", name_of(parts.ports, event.port));
   put_place(row, event.place);
   row.text("command", event.write ? "write" : "read");
   row.number("address", static_cast<std::int64_t>(event.address));

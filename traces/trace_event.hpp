@@ -31,11 +31,11 @@ struct TraceParts {
   struct StreamPart {
     std::string name;
     std::string path;
-    std::uint32_t depth = 0;       ///< tokens
-    std::int64_t width = 0;        ///< bit
-    Picoseconds write_cycle;       ///< of the writer's clock, rounded down
-    Picoseconds read_cycle;        ///< of the reader's clock, rounded down
-    std::string writer, reader;    ///< names of the stages or engines at its ends
+    std::uint32_t depth = 0;     ///< tokens
+    std::int64_t width = 0;      ///< bit
+    Picoseconds write_cycle;     ///< of the writer's clock, rounded down
+    Picoseconds read_cycle;      ///< of the reader's clock, rounded down
+    std::string writer, reader;  ///< names of the stages or engines at its ends
   };
   struct PortPart {
     std::string name;
@@ -44,29 +44,30 @@ struct TraceParts {
   std::vector<StagePart> stages;
   std::vector<StreamPart> streams;
   std::vector<PortPart> ports;
-  std::int32_t rows = 0;     ///< of the image
-  std::int32_t tiles = 1;    ///< that a frame consists of
-  std::int64_t frames = 0;   ///< that the run consists of
-  bool tokens = false;       ///< whether every token is told of, not rows alone
+  std::int32_t rows = 0;    ///< of the image
+  std::int32_t tiles = 1;   ///< that a frame consists of
+  std::int64_t frames = 0;  ///< that the run consists of
+  bool tokens = false;      ///< whether every token is told of, not rows alone
 };
 
 /// A stage at work on a row: from the row's first firing until that of the row after.
 struct StageRow {
   PartId stage = kNoPart;
-  TracePlace place;           ///< row: the row that it reads, or, when it is draining, the row that it writes
-  bool draining = false;      ///< all rows are read, those held back come out
+  TracePlace place;       ///< row: the row that it reads, or, when it is draining, the row that it writes
+  bool draining = false;  ///< all rows are read, those held back come out
   std::int32_t row_written = -1;  ///< the last row of which it wrote something in it; -1: none
   Picoseconds begin;
-  Picoseconds busy_until;     ///< the row's last firing is over; from here on the stage waits
-  Picoseconds inputs_until;   ///< the inputs of the next firing are there; from here on it waits for room
+  Picoseconds busy_until;    ///< the row's last firing is over; from here on the stage waits
+  Picoseconds inputs_until;  ///< the inputs of the next firing are there; from here on it waits for room
   Picoseconds end;
-  StageStatistics time;       ///< where the cycles from begin to end went
+  StageStatistics time;                                ///< where the cycles from begin to end went
   StageActivity input_wait = StageActivity::kStarved;  ///< busy_until to inputs_until
   PartId input = kNoPart;                              ///< the stream it waited for, if known
   StageActivity room_wait = StageActivity::kBlocked;   ///< inputs_until to end
   PartId room = kNoPart;
-  StageActivity longest_wait = StageActivity::kBusy;   ///< of what kind were most waits in it; kBusy: there was none
-  PartId longest_at = kNoPart;                         ///< the stream that caused most of these
+  StageActivity longest_wait =
+      StageActivity::kBusy;     ///< of what kind were most waits in it; kBusy: there was none
+  PartId longest_at = kNoPart;  ///< the stream that caused most of these
 };
 
 /// One firing of a stage.
@@ -93,11 +94,13 @@ struct FifoSpan {
   std::uint64_t token_cycles = 0;  ///< tokens held, summed over the cycles
   std::uint64_t full_cycles = 0;
   std::uint64_t empty_cycles = 0;
-  std::uint64_t written = 0;       ///< tokens in it
-  std::uint64_t freed = 0;         ///< places in it
-  std::uint64_t level = 0;         ///< tokens held at the end
+  std::uint64_t written = 0;  ///< tokens in it
+  std::uint64_t freed = 0;    ///< places in it
+  std::uint64_t level = 0;    ///< tokens held at the end
 
-  double mean() const { return cycles == 0 ? 0 : static_cast<double>(token_cycles) / static_cast<double>(cycles); }
+  double mean() const {
+    return cycles == 0 ? 0 : static_cast<double>(token_cycles) / static_cast<double>(cycles);
+  }
 };
 
 /// A token that is written to a stream or read from it, in the cycle that begins at `begin`.
@@ -107,10 +110,11 @@ struct TokenTransfer {
   TracePlace place;
   Picoseconds begin;
   Picoseconds end;          ///< of the cycle
+  std::uint64_t level = 0;  ///< tokens held after it
 };
 
-/// The bytes of a row through a memory port: from its first request, or the last answer to the row before, until its
-/// last answer.
+/// The bytes of a row through a memory port: from its first request, or the last answer to the row before,
+/// until its last answer.
 struct PortRow {
   PartId port = kNoPart;
   TracePlace place;
@@ -118,14 +122,15 @@ struct PortRow {
   Picoseconds end;
   std::uint64_t bytes = 0;
   std::uint64_t bursts = 0;
-  Picoseconds latency;          ///< summed over the bursts
+  Picoseconds latency;  ///< summed over the bursts
   Picoseconds longest_latency;
 };
 
-/// A burst that a memory port asks for.
-struct BurstRequest {
+/// A memory port has asked for a burst, or got its answer.
+struct PortRequests {
   PartId port = kNoPart;
   Picoseconds time;
+  std::int64_t under_way = 0;  ///< bursts from here on
 };
 
 /// A burst through a memory port.
@@ -141,18 +146,18 @@ struct BurstTransfer {
 
 /// What a frame comes to, in this order.
 enum class FrameStep : std::uint8_t {
-  kExposed,          ///< end of exposure, the read-out begins
-  kFirstByte,        ///< in memory
-  kInMemory,         ///< as much of it as the core waits for
-  kCoreStarted,      ///< by software
-  kFirstDisparity,   ///< out of the last filter
+  kExposed,         ///< end of exposure, the read-out begins
+  kFirstByte,       ///< in memory
+  kInMemory,        ///< as much of it as the core waits for
+  kCoreStarted,     ///< by software
+  kFirstDisparity,  ///< out of the last filter
   kLastDisparity,
   kResultsInMemory,
-  kAtHost,           ///< its last bit
+  kAtHost,  ///< its last bit
 };
 constexpr std::size_t kFrameSteps = 8;
-/// "exposed", "first_byte", "in_memory", "core_started", "first_disparity", "last_disparity", "results_in_memory",
-/// "at_host".
+/// "exposed", "first_byte", "in_memory", "core_started", "first_disparity", "last_disparity",
+/// "results_in_memory", "at_host".
 const char* name_of(FrameStep step);
 
 /// When one frame came to its steps.

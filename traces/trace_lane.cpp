@@ -2,32 +2,54 @@
 #include "traces/trace_lane.hpp"
 
 #include <algorithm>
-#include <functional>
 
 namespace parallax {
 
-void tell_until(Picoseconds date, const std::vector<TraceLane*>& lanes, const TraceSinks& sinks) {
-  using Next = std::pair<std::int64_t, std::size_t>;  // date, lane
-  std::vector<Next> heap;
-  for (std::size_t lane = 0; lane < lanes.size(); ++lane) {
-    if (const Picoseconds next = lanes[lane]->next(); next < date) heap.emplace_back(next.count(), lane);
-  }
-  std::make_heap(heap.begin(), heap.end(), std::greater<>());
-  while (!heap.empty()) {
-    std::pop_heap(heap.begin(), heap.end(), std::greater<>());
-    TraceLane& lane = *lanes[heap.back().second];
-    const Next next_of_others = heap.size() > 1 ? heap.front() : Next{date.count(), 0};
-    Next& own = heap.back();
-    do {
-      lane.tell(sinks);
-      own.first = lane.next().count();
-    } while (own < next_of_others && own.first < date.count());
-    if (own.first < date.count()) {
-      std::push_heap(heap.begin(), heap.end(), std::greater<>());
-    } else {
-      heap.pop_back();
+namespace {
+
+// The next dates of lanes, the earliest of each group besides: not every lane is looked at for every date.
+class NextDates {
+ public:
+  explicit NextDates(const std::vector<TraceLane*>& lanes)
+      : lanes_(lanes), groups_((lanes.size() + kGroup - 1) / kGroup, TraceLane::kNever) {
+    next_.reserve(lanes.size());
+    for (std::size_t lane = 0; lane < lanes.size(); ++lane) {
+      next_.push_back(lanes[lane]->next());
+      groups_[lane / kGroup] = std::min(groups_[lane / kGroup], next_.back());
     }
   }
+  Picoseconds earliest() const {
+    Picoseconds earliest = TraceLane::kNever;
+    for (const Picoseconds group : groups_) earliest = std::min(earliest, group);
+    return earliest;
+  }
+  void tell(Picoseconds date, const TraceSinks& sinks) {
+    for (std::size_t group = 0; group < groups_.size(); ++group) {
+      if (groups_[group] != date) continue;
+      Picoseconds later = TraceLane::kNever;
+      const std::size_t end = std::min(lanes_.size(), (group + 1) * kGroup);
+      for (std::size_t lane = group * kGroup; lane < end; ++lane) {
+        if (next_[lane] == date) next_[lane] = lanes_[lane]->tell(sinks);
+        later = std::min(later, next_[lane]);
+      }
+      groups_[group] = later;
+    }
+  }
+
+ private:
+  static constexpr std::size_t kGroup = 12;
+
+  const std::vector<TraceLane*>& lanes_;
+  std::vector<Picoseconds> next_, groups_;
+};
+
+}  // namespace
+
+void tell_until(Picoseconds date, const std::vector<TraceLane*>& lanes, const TraceSinks& sinks) {
+  // A date has events in many lanes, as those of one clock share their dates: this costs less than lanes in
+  // order.
+  NextDates dates(lanes);
+  for (Picoseconds now = dates.earliest(); now < date; now = dates.earliest()) dates.tell(now, sinks);
 }
 
 }  // namespace parallax

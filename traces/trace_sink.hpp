@@ -12,9 +12,9 @@ namespace parallax {
 /// Takes the bytes of a file, piece by piece.
 using ByteSink = std::function<void(std::string_view)>;
 
-/// Takes a trace event by event, in the order of their dates: that of a span's end, of a firing's start, of a token's
-/// cycle, of an answer. What is told besides (row_begins, requested) is told at its date. Only spans of FIFOs may come
-/// late: how full one was is certain when its reader has gone on.
+/// Takes a trace event by event, in the order of their dates: that of a span's end, of a firing's start, of a
+/// token's cycle, of an answer. What is told besides (row_begins, requests) is told at its date. Only spans
+/// of FIFOs may come late: how full one was is certain when its reader has gone on.
 class TraceSink {
  public:
   virtual ~TraceSink() = default;
@@ -31,7 +31,7 @@ class TraceSink {
   // Only of a trace of tokens:
   virtual void firing(const StageFiring& /*firing*/) {}
   virtual void token(const TokenTransfer& /*token*/) {}
-  virtual void requested(const BurstRequest& /*request*/) {}
+  virtual void requests(const PortRequests& /*requests*/) {}
   virtual void burst(const BurstTransfer& /*burst*/) {}
   /// Nothing more happens. `waits`: of a machine that is stuck.
   virtual void end(Picoseconds /*time*/, const std::vector<EndlessWait>& /*waits*/) {}

@@ -43,7 +43,9 @@ bool before(const TracePlace& place, const TraceBound& bound) {
   return bound.row && place.row < *bound.row;
 }
 
+// What belongs to no frame is in no window of frames.
 bool after(const TracePlace& place, const TraceBound& bound) {
+  if (place.frame < 0) return true;
   if (place.frame != bound.frame) return place.frame > bound.frame;
   return bound.row && place.row > *bound.row;
 }
@@ -51,11 +53,13 @@ bool after(const TracePlace& place, const TraceBound& bound) {
 void check_bound(const char* option, const TraceBound& bound, std::int64_t frames, std::int32_t rows) {
   if (bound.time) return;
   if (bound.frame >= frames) {
-    throw UserError(fmt::format("{}: frame {} is outside the run, which simulates {} (--timing-frames)", option,
-                                bound.frame + 1, frames == 1 ? "frame 1 only" : fmt::format("frames 1 to {}", frames)));
+    throw UserError(fmt::format("{}: frame {} is outside the run, which simulates {} (--timing-frames)",
+                                option, bound.frame + 1,
+                                frames == 1 ? "frame 1 only" : fmt::format("frames 1 to {}", frames)));
   }
   if (bound.row && *bound.row >= rows) {
-    throw UserError(fmt::format("{}: row {} is outside the image, whose rows are 0 to {}", option, *bound.row, rows - 1));
+    throw UserError(
+        fmt::format("{}: row {} is outside the image, whose rows are 0 to {}", option, *bound.row, rows - 1));
   }
 }
 
@@ -76,9 +80,10 @@ TraceBound read_trace_bound(const std::string& option, const std::string& text) 
     bound.time = time;
     return bound;
   }
-  throw UserError(fmt::format("{} {}: must be a frame (8, counted from 1), a row of a frame (8:120, rows counted from 0) "
-                              "or a time (12.5ms; ps, ns, us, ms, s)",
-                              option, text));
+  throw UserError(
+      fmt::format("{} {}: must be a frame (8, counted from 1), a row of a frame (8:120, rows counted from 0) "
+                  "or a time (12.5ms; ps, ns, us, ms, s)",
+                  option, text));
 }
 
 void TraceWindow::check(std::int64_t frames, std::int32_t rows) const {
@@ -86,8 +91,8 @@ void TraceWindow::check(std::int64_t frames, std::int32_t rows) const {
   if (to) check_bound("--trace-to", *to, frames, rows);
   if (!from || !to || from->time.has_value() != to->time.has_value()) return;
   const bool empty = from->time ? *from->time >= *to->time
-                                : from->frame > to->frame ||
-                                      (from->frame == to->frame && from->row.value_or(0) > to->row.value_or(rows));
+                                : from->frame > to->frame || (from->frame == to->frame &&
+                                                              from->row.value_or(0) > to->row.value_or(rows));
   if (empty) throw UserError("--trace-to is before --trace-from");
 }
 

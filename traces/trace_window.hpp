@@ -16,11 +16,12 @@ struct TraceBound {
   std::optional<Picoseconds> time;
 };
 
-/// "8" (a frame, counted from 1), "8:120" (a row of it, counted from 0), "12.5ms" (ps, ns, us, ms, s). `option` is
-/// named in the UserError when the text is none of these.
+/// "8" (a frame, counted from 1), "8:120" (a row of it, counted from 0), "12.5ms" (ps, ns, us, ms, s).
+/// `option` is named in the UserError when the text is none of these.
 TraceBound read_trace_bound(const std::string& option, const std::string& text);
 
-/// The part of a run that is traced. Frames and rows are each part's own: a stage is traced while it works on them.
+/// The part of a run that is traced. Frames and rows are each part's own: a stage is traced while it works on
+/// them.
 struct TraceWindow {
   std::optional<TraceBound> from;  ///< inclusive
   std::optional<TraceBound> to;    ///< frames and rows inclusive, dates exclusive

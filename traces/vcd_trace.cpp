@@ -11,6 +11,9 @@ namespace {
 constexpr std::int32_t kStateBits = 3;
 constexpr std::int64_t kIdle = 7;  // no firing known, none waited for
 constexpr std::int32_t kNumberBits = 32;
+// The dates of disparities are known when it is too late for a wave.
+constexpr FrameStep kTold[] = {FrameStep::kExposed,     FrameStep::kFirstByte,       FrameStep::kInMemory,
+                               FrameStep::kCoreStarted, FrameStep::kResultsInMemory, FrameStep::kAtHost};
 
 // Identifier of the n-th signal: printable characters without a blank.
 std::string code_of(std::size_t number) {
@@ -40,8 +43,6 @@ std::vector<std::string> parts_of(const std::string& path) {
   return parts;
 }
 
-constexpr bool later_first(const std::int64_t a, const std::int64_t b) { return a > b; }
-
 }  // namespace
 
 VcdTrace::SignalId VcdTrace::declare(const std::string& scope, const std::string& name, std::int32_t width) {
@@ -49,7 +50,8 @@ VcdTrace::SignalId VcdTrace::declare(const std::string& scope, const std::string
   signal.code = code_of(signals_.size());
   signal.width = width;
   const std::string range = width > 1 ? fmt::format(" [{}:0]", width - 1) : "";
-  declarations_.emplace_back(scope, fmt::format("$var wire {} {} {}{} $end\n", width, signal.code, name, range));
+  declarations_.emplace_back(scope,
+                             fmt::format("$var wire {} {} {}{} $end\n", width, signal.code, name, range));
   signals_.push_back(std::move(signal));
   return signals_.size() - 1;
 }
@@ -57,8 +59,8 @@ VcdTrace::SignalId VcdTrace::declare(const std::string& scope, const std::string
 void VcdTrace::begin(const TraceParts& parts) {
   parts_ = parts;
   for (const TraceParts::StagePart& stage : parts.stages) {
-    stages_.push_back({declare(stage.path, "state", kStateBits), declare(stage.path, "frame", kNumberBits),
-                       declare(stage.path, "row", kNumberBits)});
+    stages_.push_back({declare(stage.path, "state", kStateBits), declare(stage.path, "waited", kStateBits),
+                       declare(stage.path, "frame", kNumberBits), declare(stage.path, "row", kNumberBits)});
     signals_[stages_.back().state].value = kIdle;
   }
   for (const TraceParts::StreamPart& stream : parts.streams) {
@@ -68,16 +70,20 @@ void VcdTrace::begin(const TraceParts& parts) {
   for (const TraceParts::PortPart& port : parts.ports) {
     ports_.push_back({declare(port.path, "row", kNumberBits), declare(port.path, "requests", kNumberBits)});
   }
-  for (std::size_t step = 0; step < kFrameSteps; ++step) {
-    steps_.push_back(declare("frames", name_of(static_cast<FrameStep>(step)), kNumberBits));
+  for (const FrameStep step : kTold) {
+    steps_[static_cast<std::size_t>(step)] = declare("frames", name_of(step), kNumberBits);
   }
   std::stable_sort(declarations_.begin(), declarations_.end(),
                    [](const auto& a, const auto& b) { return parts_of(a.first) < parts_of(b.first); });
   out_.add(std::string_view("$timescale 1 ps $end\n"));
-  out_.add(fmt::format("$comment state: 0 busy, 1 upstream empty, 2 downstream full, 3 memory, 4 synchroniser, 5 blanking, "
-                       "7 idle; level {}; frames: how many have come so far $end\n",
-                       parts.tokens ? "tokens: write and read are high in the cycles in which a token passes"
-                                    : "rows: write and read are high when tokens passed in the row's time before"));
+  out_.add(fmt::format(
+      "$comment state: 0 busy, 5 overhead, 7 neither; of a machine that is stuck, at the end: 1 upstream "
+      "empty, 2 downstream "
+      "full; waited, when a wait is over: 0 not, 1 upstream empty, 2 downstream full, 3 memory, 4 "
+      "synchroniser, 5 blanking; "
+      "level {}; frames: how many have come so far $end\n",
+      parts.tokens ? "tokens: write and read are high in the cycles in which a token passes"
+                   : "rows: write and read are high when tokens passed in the row's time before"));
   std::vector<std::string> open;
   for (const auto& [scope, line] : declarations_) {
     const std::vector<std::string> wanted = parts_of(scope);
@@ -130,24 +136,24 @@ void VcdTrace::dump() {
     signal.dumped = signal.value;
   }
   changed_.clear();
-  out_.write_if_full();
+}
+
+void VcdTrace::set(SignalId id, std::int64_t value) {
+  Signal& signal = signals_[id];
+  signal.value = value;
+  if (!signal.changed) changed_.push_back(id);
+  signal.changed = true;
 }
 
 // Goes on to `time`, past the changes that come by themselves until then.
 void VcdTrace::advance(std::int64_t time) {
-  const auto earliest_first = [](const Later& a, const Later& b) { return later_first(a.time, b.time); };
-  while (!later_.empty() && later_.front().time <= time) {
-    std::pop_heap(later_.begin(), later_.end(), earliest_first);
-    const Later next = later_.back();
-    later_.pop_back();
+  for (; !later_.empty() && later_.date() <= time; later_.pop()) {
+    const Later& next = later_.front();
     if (next.time > time_) {
       dump();
       time_ = next.time;
     }
-    Signal& signal = signals_[next.signal];
-    signal.value = next.value;
-    if (!signal.changed) changed_.push_back(next.signal);
-    signal.changed = true;
+    set(next.signal, next.value);
   }
   if (time > time_) {
     dump();
@@ -155,18 +161,13 @@ void VcdTrace::advance(std::int64_t time) {
   }
 }
 
-void VcdTrace::change(Picoseconds time, SignalId id, std::int64_t value) {
+void VcdTrace::change(Picoseconds time, SignalId signal, std::int64_t value) {
   advance(time.count());
-  Signal& signal = signals_[id];
-  signal.value = value;
-  if (!signal.changed) changed_.push_back(id);
-  signal.changed = true;
+  set(signal, value);
 }
 
 void VcdTrace::change_later(Picoseconds time, SignalId signal, std::int64_t value) {
-  const auto earliest_first = [](const Later& a, const Later& b) { return later_first(a.time, b.time); };
-  later_.push_back({time.count(), signal, value});
-  std::push_heap(later_.begin(), later_.end(), earliest_first);
+  later_.push({time.count(), signal, value});
 }
 
 void VcdTrace::row_begins(const StageRow& row) {
@@ -178,9 +179,9 @@ void VcdTrace::row_begins(const StageRow& row) {
 
 void VcdTrace::row(const StageRow& row) {
   if (parts_.tokens) return;
-  // The row is over: all that is still to be seen of it is the wait that led to the next one's begin.
   const StageSignals& stage = stages_[static_cast<std::size_t>(row.stage)];
   change(row.end, stage.state, kIdle);
+  change(row.end, stage.waited, static_cast<std::int64_t>(row.longest_wait));
 }
 
 void VcdTrace::fifo(const FifoSpan& span) {
@@ -192,7 +193,9 @@ void VcdTrace::fifo(const FifoSpan& span) {
   change(now, stream.level, static_cast<std::int64_t>(span.level));
 }
 
-void VcdTrace::port_row(const PortRow& row) { change(row.end, ports_[static_cast<std::size_t>(row.port)].row, row.place.row); }
+void VcdTrace::port_row(const PortRow& row) {
+  change(row.end, ports_[static_cast<std::size_t>(row.port)].row, row.place.row);
+}
 
 void VcdTrace::frame_step(std::int64_t frame, FrameStep step, Picoseconds time) {
   change(time, steps_[static_cast<std::size_t>(step)], frame + 1);
@@ -202,25 +205,23 @@ void VcdTrace::firing(const StageFiring& firing) {
   const StageSignals& stage = stages_[static_cast<std::size_t>(firing.stage)];
   change(firing.start, stage.state, static_cast<std::int64_t>(firing.work));
   change_later(firing.end, stage.state, kIdle);
+  const bool for_input = firing.ready - firing.free >= firing.start - firing.ready;
+  const StageActivity wait = firing.start == firing.free ? StageActivity::kBusy
+                             : for_input                 ? firing.input_wait
+                                                         : firing.room_wait;
+  change(firing.start, stage.waited, static_cast<std::int64_t>(wait));
 }
 
 void VcdTrace::token(const TokenTransfer& token) {
-  StreamSignals& stream = streams_[static_cast<std::size_t>(token.stream)];
+  const StreamSignals& stream = streams_[static_cast<std::size_t>(token.stream)];
   const SignalId signal = token.read ? stream.read : stream.write;
   change(token.begin, signal, 1);
   change_later(token.end, signal, 0);
-  stream.level_now += token.read ? -1 : 1;
-  change_later(token.end, stream.level, stream.level_now);
+  change_later(token.end, stream.level, static_cast<std::int64_t>(token.level));
 }
 
-void VcdTrace::requested(const BurstRequest& request) {
-  const SignalId signal = ports_[static_cast<std::size_t>(request.port)].requests;
-  change(request.time, signal, signals_[signal].value + 1);
-}
-
-void VcdTrace::burst(const BurstTransfer& burst) {
-  const SignalId signal = ports_[static_cast<std::size_t>(burst.port)].requests;
-  change(burst.answered, signal, signals_[signal].value - 1);
+void VcdTrace::requests(const PortRequests& requests) {
+  change(requests.time, ports_[static_cast<std::size_t>(requests.port)].requests, requests.under_way);
 }
 
 void VcdTrace::end(Picoseconds time, const std::vector<EndlessWait>& waits) {
@@ -232,7 +233,7 @@ void VcdTrace::end(Picoseconds time, const std::vector<EndlessWait>& waits) {
     }
   }
   advance(std::max(time.count(), time_));
-  while (!later_.empty()) advance(later_.front().time);
+  while (!later_.empty()) advance(later_.date());
   dump();
   out_.write();
 }

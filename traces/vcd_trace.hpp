@@ -1,21 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "traces/date_queue.hpp"
 #include "traces/text_buffer.hpp"
 #include "traces/trace_sink.hpp"
 
 namespace parallax {
 
-/// Writes a trace as a value change dump (IEEE 1364), in ps from the same zero as the model, so that it lies beside the
-/// waves of RTL: for each stage its state, frame and row; for each stream whether a token is written and read in the
-/// cycle (valid and ready both high) and the level of its FIFO; for each memory port its row and what is under way; and
-/// how many frames have come to each step. Of a trace of rows, write and read are 1 when tokens have passed in the row's
-/// time before, and levels are those at its end.
+/// Writes a trace as a value change dump (IEEE 1364), in ps from the same zero as the model, so that it lies
+/// beside the waves of RTL. For each stage whether it is at work, for what it waited before (that is known
+/// when the wait is over), frame and row; for each stream whether a token is written and read in the cycle
+/// (valid and ready both high) and the level of its FIFO; for each memory port its row and the requests under
+/// way; and how many frames have come to each step that has a date of the kernel. Of a trace of rows, a stage
+/// is at work from a row's first firing until that of the row after, write and read are 1 when tokens have
+/// passed in the row's time before, and levels are those at its end.
 class VcdTrace final : public TraceSink {
  public:
   explicit VcdTrace(ByteSink sink) : out_(std::move(sink)) {}
@@ -28,8 +32,7 @@ class VcdTrace final : public TraceSink {
   void frame_step(std::int64_t frame, FrameStep step, Picoseconds time) override;
   void firing(const StageFiring& firing) override;
   void token(const TokenTransfer& token) override;
-  void requested(const BurstRequest& request) override;
-  void burst(const BurstTransfer& burst) override;
+  void requests(const PortRequests& requests) override;
   void end(Picoseconds time, const std::vector<EndlessWait>& waits) override;
 
  private:
@@ -46,12 +49,14 @@ class VcdTrace final : public TraceSink {
     SignalId signal;
     std::int64_t value;
   };
+  struct LaterDate {
+    std::int64_t operator()(const Later& later) const { return later.time; }
+  };
   struct StageSignals {
-    SignalId state, frame, row;
+    SignalId state, waited, frame, row;
   };
   struct StreamSignals {
     SignalId write, read, level;
-    std::int64_t level_now = 0;
   };
   struct PortSignals {
     SignalId row, requests;
@@ -60,6 +65,7 @@ class VcdTrace final : public TraceSink {
   SignalId declare(const std::string& scope, const std::string& name, std::int32_t width);
   void change(Picoseconds time, SignalId signal, std::int64_t value);
   void change_later(Picoseconds time, SignalId signal, std::int64_t value);
+  void set(SignalId signal, std::int64_t value);
   void advance(std::int64_t time);
   void dump();
   void append(const Signal& signal);
@@ -71,10 +77,10 @@ class VcdTrace final : public TraceSink {
   std::vector<StageSignals> stages_;
   std::vector<StreamSignals> streams_;
   std::vector<PortSignals> ports_;
-  std::vector<SignalId> steps_;
+  std::array<SignalId, kFrameSteps> steps_{};
   std::int64_t time_ = 0;
   std::vector<SignalId> changed_;  // at time_
-  std::vector<Later> later_;       // a heap, the earliest first
+  DateQueue<Later, LaterDate> later_{LaterDate{}};
 };
 
 }  // namespace parallax

@@ -98,8 +98,9 @@ class Run {
     if (options_.verdict || options_.report)
       standby_ = std::make_unique<StandbyEvaluator>(timing_input(), options_.configuration);
     const Machine machine("machine", configuration_.machine, input);
-    if (folder_) profile_ = std::make_unique<RunProfile>(machine);
-    if (options_.trace.wanted()) tracing_ = std::make_unique<Tracing>(trace_choice_, machine, *folder_);
+    Pace pace("pace");
+    if (folder_) profile_ = std::make_unique<RunProfile>(machine, pace);
+    if (options_.trace.wanted()) tracing_ = std::make_unique<Tracing>(trace_choice_, machine, pace, *folder_);
     tell_notes();
     simulate([&] { return interruption.requested(); });
     progress_.reset();
@@ -206,7 +207,7 @@ class Run {
     const std::string prefix = source_->frames() == 1 ? "" : fmt::format("frame_{:04}/", result.index);
     write_frame(*folder_, prefix, frame, writing_);
     if (source_->frames() == 1) return;  // a single pair's results appear together with its timing
-    folder_->publish();
+    folder_->publish_written();
     if (!strip_) strip_ = std::make_unique<StripGif>(folder_->path() / "strip.gif", size_, writing_.colors);
     strip_->add(frame.left, {frame.disparities, size_.width, size_.height},
                 sc_core::sc_time_stamp().to_seconds() * 1e3);

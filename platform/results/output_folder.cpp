@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <iterator>
 
 #include "tlm/error.hpp"
 
@@ -25,7 +26,8 @@ OutputFolder::OutputFolder(fs::path path) : path_(std::move(path)) {
 }
 
 OutputFolder::~OutputFolder() {
-  pending_.clear();
+  opened_.clear();
+  written_.clear();
   remove_made();
 }
 
@@ -74,17 +76,21 @@ void OutputFolder::make(const fs::path& folder) {
   }
 }
 
-OutputFile& OutputFolder::open(const std::string& name) {
+std::unique_ptr<OutputFile> OutputFolder::create(const std::string& name) {
   const fs::path target = path_ / name;
   if (target.parent_path() != path_) make(target.parent_path());
-  pending_.push_back(std::make_unique<OutputFile>(target));
-  return *pending_.back();
+  return std::make_unique<OutputFile>(target);
+}
+
+OutputFile& OutputFolder::open(const std::string& name) {
+  opened_.push_back(create(name));
+  return *opened_.back();
 }
 
 void OutputFolder::write(const std::string& name, std::string_view content) {
-  OutputFile& file = open(name);
-  file.write(content);
-  file.close();  // a run over many files must not hold them all open
+  written_.push_back(create(name));
+  written_.back()->write(content);
+  written_.back()->close();  // a run over many files must not hold them all open
 }
 
 void OutputFolder::write(const std::string& name, const std::vector<unsigned char>& content) {
@@ -92,15 +98,18 @@ void OutputFolder::write(const std::string& name, const std::vector<unsigned cha
 }
 
 void OutputFolder::publish() {
-  try {
-    for (const auto& file : pending_) file->close();
-    remove_old();
-    for (const auto& file : pending_) file->publish();
-  } catch (...) {
-    pending_.clear();
-    throw;
-  }
-  pending_.clear();
+  std::vector<std::unique_ptr<OutputFile>> files = std::exchange(opened_, {});
+  std::move(written_.begin(), written_.end(), std::back_inserter(files));
+  written_.clear();
+  publish(std::move(files));
+}
+
+void OutputFolder::publish_written() { publish(std::exchange(written_, {})); }
+
+void OutputFolder::publish(std::vector<std::unique_ptr<OutputFile>> files) {
+  for (const auto& file : files) file->close();
+  remove_old();
+  for (const auto& file : files) file->publish();
 }
 
 }  // namespace parallax

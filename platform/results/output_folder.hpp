@@ -42,8 +42,12 @@ class OutputFolder {
   /// Completes all files, then gives each its name. Throws UserError when the disk is full; then none
   /// appears.
   void publish();
+  /// The same for the files that are written as a whole: those that were opened go on.
+  void publish_written();
 
  private:
+  std::unique_ptr<OutputFile> create(const std::string& name);
+  void publish(std::vector<std::unique_ptr<OutputFile>> files);
   void make(const std::filesystem::path& folder);
   void remove_old();
   void remove_made();  ///< those that are empty
@@ -51,7 +55,7 @@ class OutputFolder {
   std::filesystem::path path_;
   std::function<bool(const std::string&)> is_old_;  ///< until the first publish()
   std::vector<std::filesystem::path> made_;         ///< folders that did not exist before, outermost first
-  std::vector<std::unique_ptr<OutputFile>> pending_;
+  std::vector<std::unique_ptr<OutputFile>> opened_, written_;  ///< of the next publish()
 };
 
 }  // namespace parallax

@@ -30,9 +30,9 @@ nlohmann::ordered_json counts(const LatencyHistogram& histogram) {
 
 }  // namespace
 
-RunProfile::RunProfile(const Machine& machine)
+RunProfile::RunProfile(const Machine& machine, Pace& pace)
     : machine_(machine),
-      recorder_("profile", config_of(machine), const_cast<Dataflow&>(machine.dataflow()), [this] {
+      recorder_("profile", config_of(machine), const_cast<Dataflow&>(machine.dataflow()), pace, [this] {
         const MachineRows rows(machine_);
         for (const Machine::Port& port : machine_.ports())
           recorder_.add(*port.master, port.name, rows.of(port));

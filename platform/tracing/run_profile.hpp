@@ -13,7 +13,7 @@ namespace parallax {
 class RunProfile {
  public:
   /// To be made when the machine is, before the simulation starts.
-  explicit RunProfile(const Machine& machine);
+  RunProfile(const Machine& machine, Pace& pace);
 
   /// Now; frames after the run's last one are left out.
   void frame_step(std::int64_t frame, FrameStep step) {

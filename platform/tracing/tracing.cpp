@@ -50,21 +50,6 @@ RecorderConfig recorder_config(const TraceChoice& choice, const Machine& machine
   return config;
 }
 
-ByteSink file(OutputFolder& folder, const std::string& name) {
-  OutputFile& out = folder.open(name);
-  return [&out](std::string_view bytes) { out.write(bytes); };
-}
-
-std::unique_ptr<TraceSink> make_sink(const std::string& format, OutputFolder& folder) {
-  if (format == "csv") {
-    return std::make_unique<CsvTrace>(
-        [&folder](const std::string& table) { return file(folder, "trace_" + table + ".csv"); });
-  }
-  if (format == "json") return std::make_unique<JsonTrace>(file(folder, "trace.json"));
-  if (format == "vcd") return std::make_unique<VcdTrace>(file(folder, "trace.vcd"));
-  return std::make_unique<PerfettoTrace>(file(folder, "trace.pftrace"));
-}
-
 const std::vector<std::string>& checked_parts(const std::vector<std::string>& parts, const Machine& machine) {
   std::vector<std::string> names;
   for (const StageInfo& info : machine.pipeline().stages()) names.emplace_back(info.stage->basename());
@@ -108,16 +93,40 @@ TraceChoice read_trace_options(const TraceOptions& options) {
   return choice;
 }
 
-Tracing::Tracing(const TraceChoice& choice, const Machine& machine, OutputFolder& folder)
+Tracing::Tracing(const TraceChoice& choice, const Machine& machine, Pace& pace, OutputFolder& folder)
     : machine_(machine),
       wanted_(checked_parts(choice.parts, machine)),
       window_(choice.window),
-      recorder_("recorder", recorder_config(choice, machine), const_cast<Dataflow&>(machine.dataflow()),
+      recorder_("recorder", recorder_config(choice, machine), const_cast<Dataflow&>(machine.dataflow()), pace,
                 [this] { add_parts(); }) {
   for (const std::string& format : choice.formats) {
     sinks_.push_back(make_sink(format, folder));
     recorder_.add(*sinks_.back());
   }
+}
+
+// A fault must not reach the kernel, it would lose its line.
+ByteSink Tracing::file(OutputFolder& folder, const std::string& name) {
+  OutputFile& out = folder.open(name);
+  return [this, &out](std::string_view bytes) {
+    if (failure_) return;
+    try {
+      out.write(bytes);
+    } catch (...) {
+      failure_ = std::current_exception();
+      sc_core::sc_stop();
+    }
+  };
+}
+
+std::unique_ptr<TraceSink> Tracing::make_sink(const std::string& format, OutputFolder& folder) {
+  if (format == "csv") {
+    return std::make_unique<CsvTrace>(
+        [this, &folder](const std::string& table) { return file(folder, "trace_" + table + ".csv"); });
+  }
+  if (format == "json") return std::make_unique<JsonTrace>(file(folder, "trace.json"));
+  if (format == "vcd") return std::make_unique<VcdTrace>(file(folder, "trace.vcd"));
+  return std::make_unique<PerfettoTrace>(file(folder, "trace.pftrace"));
 }
 
 Tracing::~Tracing() = default;
@@ -167,7 +176,12 @@ void Tracing::delivered(std::int64_t frame) {
   recorder_.frame(record);
 }
 
+void Tracing::check() const {
+  if (failure_) std::rethrow_exception(failure_);
+}
+
 void Tracing::finish() {
+  check();
   std::vector<EndlessWait> waits;
   if (!machine_.finished()) {
     for (const Wait& wait : machine_.dataflow().waits()) {
@@ -175,6 +189,7 @@ void Tracing::finish() {
     }
   }
   recorder_.finish(waits);
+  check();
   const Picoseconds end = date(sc_core::sc_time_stamp());
   if (window_.from && window_.from->time && *window_.from->time >= end) {
     throw UserError(fmt::format("--trace-from: {} us is after the run's end, {} us",

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <exception>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "platform/machine.hpp"
@@ -11,7 +13,8 @@
 
 namespace parallax {
 
-/// What the options ask for, checked. Throws UserError for a format, level, bound or combination that there is not.
+/// What the options ask for, checked. Throws UserError for a format, level, bound or combination that there
+/// is not.
 struct TraceChoice {
   std::vector<std::string> formats;
   bool tokens = false;
@@ -23,9 +26,9 @@ TraceChoice read_trace_options(const TraceOptions& options);
 /// The trace of a run: a recorder on the parts of a machine, and the files that it fills.
 class Tracing {
  public:
-  /// To be made when the machine is, before the simulation starts. Throws UserError for a window outside the run, or a
-  /// part that the machine has not. Files are of the folder's next publish().
-  Tracing(const TraceChoice& choice, const Machine& machine, OutputFolder& folder);
+  /// To be made when the machine is, before the simulation starts. Throws UserError for a window outside the
+  /// run, or a part that the machine has not. Files are of the folder's publish().
+  Tracing(const TraceChoice& choice, const Machine& machine, Pace& pace, OutputFolder& folder);
   ~Tracing();
 
   /// Now; frames after the run's last one are left out.
@@ -34,17 +37,22 @@ class Tracing {
   }
   /// Frame `frame` is at the host.
   void delivered(std::int64_t frame);
-  /// When the simulation is over. Throws UserError when the window was after its end.
+  /// When the simulation is over. Throws UserError when the disk was full, which has ended the simulation, or
+  /// when the window was after its end.
   void finish();
 
  private:
   void add_parts();
+  ByteSink file(OutputFolder& folder, const std::string& name);
+  std::unique_ptr<TraceSink> make_sink(const std::string& format, OutputFolder& folder);
+  void check() const;
 
   const Machine& machine_;
   const std::vector<std::string> wanted_;  // parts; none: all
   const TraceWindow window_;
   std::vector<std::unique_ptr<TraceSink>> sinks_;
   Recorder recorder_;
+  std::exception_ptr failure_;  // of a write
 };
 
 }  // namespace parallax

@@ -17,4 +17,7 @@ void register_chain_benchmarks(const Workload& workload);
 /// The whole machine without images: machine/<steady or start_up>/<size>_<disparities>.
 void register_machine_benchmarks(const Workload& workload);
 
+/// What a trace costs: trace/<level>/<format>.
+void register_trace_benchmarks(const Workload& workload);
+
 }  // namespace parallax::bench

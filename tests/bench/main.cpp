@@ -50,6 +50,7 @@ int sc_main(int argc, char** argv) {
   if (benchmark::ReportUnrecognizedArguments(count, arguments.data())) return 2;
   parallax::bench::register_chain_benchmarks(workload);
   parallax::bench::register_machine_benchmarks(workload);
+  parallax::bench::register_trace_benchmarks(workload);
   parallax::bench::Report report;
   const std::size_t found = benchmark::RunSpecifiedBenchmarks(&report);
   return found == 0 || report.failed() ? 1 : 0;

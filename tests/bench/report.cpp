@@ -47,6 +47,7 @@ void Report::Finalize() {
   ConsoleReporter::Finalize();
   print_chains();
   print_machines();
+  print_traces();
 }
 
 void Report::print_chains() {
@@ -102,6 +103,27 @@ void Report::print_machines() {
                        "| start-up: encode the map, ms | construct, ms | peak memory, MB |\n"
                        "|---|---|---|---|---|---|---|\n"
                     << rows;
+}
+
+void Report::print_traces() {
+  std::string rows;
+  for (const char* level : {"rows", "tokens"}) {
+    for (const char* format : {"csv", "json", "vcd", "perfetto"}) {
+      const auto value = [&](const char* name) {
+        return counter(fmt::format("trace/{}/{}", level, format), name);
+      };
+      if (std::isnan(value("ns_per_event"))) continue;
+      rows += fmt::format("| {} | {} |{}{}{}{}\n", level, format, cell(value("million_events"), " {:.2f} |"),
+                          cell(value("ns_per_event"), " {:.0f} |"), cell(value("peak_MB"), " {:.0f} |"),
+                          cell(value("MB_without"), " {:.0f} |"));
+    }
+  }
+  if (rows.empty()) return;
+  GetOutputStream()
+      << "\nTraces of a run with 640x480 pixels and 128 disparities\n\n"
+         "| level | format | million events | ns per event | peak memory, MB | without a trace, MB |\n"
+         "|---|---|---|---|---|---|\n"
+      << rows;
 }
 
 }  // namespace parallax::bench

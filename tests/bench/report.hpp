@@ -25,6 +25,7 @@ class Report final : public benchmark::ConsoleReporter {
   double counter(const std::string& benchmark, const char* name) const;
   void print_chains();
   void print_machines();
+  void print_traces();
 
   std::map<std::string, benchmark::UserCounters> medians_;  // by name of the benchmark
   bool failed_ = false;

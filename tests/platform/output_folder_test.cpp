@@ -35,6 +35,20 @@ TEST(OutputFolder, FilesAppearTogetherWhenPublished) {
   EXPECT_EQ(entries(temporary.path()), 5U) << "three files, two folders, no temporary file";
 }
 
+TEST(OutputFolder, OpenedFilesGoOnWhileWrittenOnesArePublished) {
+  TemporaryFolder temporary;
+  OutputFolder folder(temporary.path());
+  OutputFile& trace = folder.open("trace.csv");
+  trace.write("first,");
+  folder.write("frame_0000/a.png", "x");
+  folder.publish_written();
+  EXPECT_EQ(temporary.read("frame_0000/a.png"), "x");
+  EXPECT_FALSE(fs::exists(temporary / "trace.csv"));
+  trace.write("second");
+  folder.publish();
+  EXPECT_EQ(temporary.read("trace.csv"), "first,second");
+}
+
 TEST(OutputFolder, ReplacesOlderResultsOnlyWhenPublished) {
   TemporaryFolder temporary;
   temporary.write("a.json", "old");

@@ -1,0 +1,372 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every format, read by a program that is not ours, says the same.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+
+#include "tests/traces/database.hpp"
+
+namespace parallax::test {
+namespace {
+
+constexpr const char* kRun =
+    "run --size 96x64 --disparities 32 --timing-only --timing-frames 2 -q --out out ";
+constexpr const char* kTokens = "--trace-level tokens --trace-from 2:4 --trace-to 2:9 ";
+
+constexpr const char* kWaits[] = {"",       "starved",      "blocked",
+                                  "memory", "synchroniser", "blanking"};  // as VCD counts them
+
+class TraceFormats : public testing::Test {
+ protected:
+  void run(const std::string& options) {
+    const Outcome outcome = program_(kRun + options);
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+  }
+  Program program_;
+};
+
+TEST_F(TraceFormats, JsonHasTheColumnsOfCsv) {
+  SKIP_WITHOUT("sqlite3", "sqlite3");
+  run(std::string("--trace csv,json ") + kTokens);
+  const Database csv(program_ / "out");
+  const auto json = nlohmann::ordered_json::parse(program_.read("out/trace.json"));
+  EXPECT_EQ(json.at("rows"), 64);
+  EXPECT_EQ(json.at("frames"), 2);
+  EXPECT_TRUE(json.at("waits").empty());
+  std::map<std::string, std::vector<std::string>> tables;
+  for (const auto& event : json.at("events")) {
+    std::string line;
+    for (const auto& [name, value] : event.items()) {
+      if (name == "table") continue;
+      if (!line.empty() || name != event.items().begin().key()) line += line.empty() ? "" : "|";
+      line += value.is_string()    ? value.get<std::string>()
+              : value.is_boolean() ? (value.get<bool>() ? "1" : "0")
+                                   : value.dump();
+    }
+    tables[event.at("table")].push_back(line);
+  }
+  for (const char* table : {"rows", "ports", "firings", "tokens", "bursts"}) {
+    EXPECT_FALSE(tables[table].empty()) << table;
+  }
+  for (const auto& [table, events] : tables) EXPECT_EQ(events, csv.query("select * from " + table)) << table;
+}
+
+// Changes of each signal of a VCD, by its name with its scopes.
+struct Wave {
+  std::string timescale;
+  std::map<std::string, std::vector<std::pair<std::int64_t, std::int64_t>>> changes;
+
+  explicit Wave(const std::string& text) {
+    std::istringstream in(text);
+    std::map<std::string, std::vector<std::string>>
+        names;  // of a code: fst2vcd gives one to signals that are alike
+    std::string word, scope;
+    std::int64_t time = 0;
+    const auto skip = [&] {
+      std::string all;
+      for (std::string part; in >> part && part != "$end";) all += part + " ";
+      return all;
+    };
+    while (in >> word) {
+      if (word == "$timescale")
+        timescale = skip();
+      else if (word == "$comment" || word == "$date" || word == "$version")
+        skip();
+      else if (word == "$scope") {
+        in >> word >> word;
+        scope += word + ".";
+        skip();
+      } else if (word == "$upscope") {
+        scope.erase(scope.rfind('.', scope.size() - 2) + 1);
+        skip();
+      } else if (word == "$var") {
+        std::string type, width, code, name;
+        in >> type >> width >> code >> name;
+        names[code].push_back(scope + name.substr(0, name.find('[')));
+        skip();
+      } else if (word[0] == '#') {
+        time = std::stoll(word.substr(1));
+      } else if (word[0] == 'b') {
+        std::string code;
+        in >> code;
+        for (const std::string& name : names.at(code))
+          changes[name].emplace_back(time, std::stoll(word.substr(1), nullptr, 2));
+      } else if (word[0] == '0' || word[0] == '1') {
+        for (const std::string& name : names.at(word.substr(1)))
+          changes[name].emplace_back(time, word[0] - '0');
+      }
+    }
+  }
+  /// Whether a signal is `value` from `begin` (at the latest) until `end`.
+  bool is(const std::string& signal, std::int64_t value, std::int64_t begin, std::int64_t end) const {
+    const auto& list = changes.at(signal);
+    auto next = std::upper_bound(list.begin(), list.end(),
+                                 std::pair{begin, std::numeric_limits<std::int64_t>::max()});
+    return next != list.begin() && std::prev(next)->second == value &&
+           (next == list.end() || next->first >= end);
+  }
+  std::int64_t at(const std::string& signal, std::int64_t time) const {
+    const auto& list = changes.at(signal);
+    return std::prev(std::upper_bound(list.begin(), list.end(),
+                                      std::pair{time, std::numeric_limits<std::int64_t>::max()}))
+        ->second;
+  }
+};
+
+TEST_F(TraceFormats, VcdHasTheHandshakesAndFiringsOfCsv) {
+  SKIP_WITHOUT("sqlite3", "sqlite3");
+  SKIP_WITHOUT("fst2vcd", "gtkwave");
+  run(std::string("--trace csv,vcd ") + kTokens);
+  const std::string out = (program_ / "out/").string();
+  output_of("vcd2fst " + out + "trace.vcd " + out + "trace.fst");
+  const Wave wave(output_of("fst2vcd " + out + "trace.fst"));
+  EXPECT_EQ(wave.timescale, "1ps ");
+  const Database csv(program_ / "out");
+  const std::string pipeline = "machine.core.pipeline.";
+  std::map<std::string, std::size_t> high;
+  for (const std::string& line :
+       csv.query("select stream,side,begin_ps,end_ps,level from tokens where row!='-1'")) {
+    std::istringstream in(line);
+    std::string stream, side, begin, end, level;
+    std::getline(in, stream, '|');
+    std::getline(in, side, '|');
+    std::getline(in, begin, '|');
+    std::getline(in, end, '|');
+    std::getline(in, level, '|');
+    ASSERT_TRUE(wave.is(pipeline + stream + "." + side, 1, std::stoll(begin), std::stoll(end))) << line;
+    ASSERT_EQ(wave.at(pipeline + stream + ".level", std::stoll(end)), std::stoll(level)) << line;
+    ++high[stream + "." + side];
+  }
+  EXPECT_GT(high.size(), 20u);
+  for (const std::string& line :
+       csv.query("select stage,work,start_ps,end_ps,frame,row,case when start_ps=free_ps then '' when "
+                 "ready_ps-free_ps>=start_ps-ready_ps then input_wait else room_wait end from firings")) {
+    std::istringstream in(line);
+    std::string stage, work, start, end, frame, row, wait;
+    std::getline(in, stage, '|');
+    std::getline(in, work, '|');
+    std::getline(in, start, '|');
+    std::getline(in, end, '|');
+    std::getline(in, frame, '|');
+    std::getline(in, row, '|');
+    std::getline(in, wait, '|');
+    ASSERT_EQ(kWaits[static_cast<std::size_t>(wave.at(pipeline + stage + ".waited", std::stoll(start)))],
+              wait)
+        << line;
+    ASSERT_TRUE(
+        wave.is(pipeline + stage + ".state", work == "busy" ? 0 : 5, std::stoll(start), std::stoll(end)))
+        << line;
+    ASSERT_EQ(wave.at(pipeline + stage + ".frame", std::stoll(start)), std::stoll(frame)) << line;
+    ASSERT_EQ(wave.at(pipeline + stage + ".row", std::stoll(start)), std::stoll(row)) << line;
+  }
+  // High for as long as tokens pass, and no longer.
+  const auto& writes = wave.changes.at(pipeline + "winners.write");
+  std::int64_t time_high = 0;
+  for (std::size_t i = 0; i + 1 < writes.size(); ++i) {
+    if (writes[i].second == 1) time_high += writes[i + 1].first - writes[i].first;
+  }
+  EXPECT_EQ(time_high,
+            csv.number("select sum(end_ps-begin_ps) from tokens where stream='winners' and side='write'"));
+}
+
+TEST_F(TraceFormats, VcdOfRowsHasTheRowsOfCsv) {
+  SKIP_WITHOUT("sqlite3", "sqlite3");
+  SKIP_WITHOUT("fst2vcd", "gtkwave");
+  run("--trace csv,vcd");
+  const std::string out = (program_ / "out/").string();
+  output_of("vcd2fst " + out + "trace.vcd " + out + "trace.fst");
+  const Wave wave(output_of("fst2vcd " + out + "trace.fst"));
+  const Database csv(program_ / "out");
+  const auto rows = csv.query("select stage,begin_ps,end_ps,frame,row,wait from rows");
+  EXPECT_GT(rows.size(), 1000u);
+  for (const std::string& line : rows) {
+    std::istringstream in(line);
+    std::string stage, begin, end, frame, row;
+    std::getline(in, stage, '|');
+    std::getline(in, begin, '|');
+    std::getline(in, end, '|');
+    std::getline(in, frame, '|');
+    std::getline(in, row, '|');
+    const std::string name = "machine.core.pipeline." + stage;
+    ASSERT_TRUE(wave.is(name + ".row", std::stoll(row), std::stoll(begin), std::stoll(end))) << line;
+    ASSERT_TRUE(wave.is(name + ".frame", std::stoll(frame), std::stoll(begin), std::stoll(end))) << line;
+  }
+  for (const char* step :
+       {"exposed", "first_byte", "in_memory", "core_started", "results_in_memory", "at_host"}) {
+    const std::int64_t date = csv.number(fmt::format("select {}_ps from frames where frame='2'", step));
+    EXPECT_EQ(wave.at(std::string("frames.") + step, date), 2) << step;
+    EXPECT_EQ(wave.at(std::string("frames.") + step, date - 1), 1) << step;
+  }
+}
+
+// Slices and counters of a Perfetto trace, from the text that protoc makes of it.
+struct Tracks {
+  struct Slice {
+    std::int64_t begin = 0, end = -1;
+    std::string name;
+    std::map<std::string, std::string> arguments;  // numbers as text
+    std::size_t flows = 0;
+  };
+  std::map<std::string, std::vector<Slice>> slices;                              // by track
+  std::map<std::string, std::vector<std::pair<std::int64_t, double>>> counters;  // likewise
+
+  explicit Tracks(const std::string& text) {
+    std::map<std::string, std::string> tracks, events, arguments;
+    std::map<std::string, std::vector<std::size_t>> open;
+    std::vector<std::string> path;
+    std::map<std::string, std::string> fields;  // of the packet, the last value each
+    std::vector<std::pair<std::string, std::string>> annotations;
+    std::size_t flows = 0;
+    for (std::string line : lines(text)) {
+      line.erase(0, line.find_first_not_of(' '));
+      if (line.back() == '{') {
+        path.push_back(line.substr(0, line.size() - 2));
+        if (path.back() == "packet") {
+          fields.clear();
+          annotations.clear();
+          flows = 0;
+        }
+        if (path.back() == "debug_annotations") annotations.emplace_back();
+        continue;
+      }
+      if (line != "}") {
+        const std::string key = line.substr(0, line.find(':'));
+        std::string value = line.substr(line.find(':') + 2);
+        if (value.front() == '"') value = value.substr(1, value.size() - 2);
+        if (path.back() == "debug_annotations")
+          (key == "name_iid" ? annotations.back().first : annotations.back().second) = value;
+        else if (key == "flow_ids")
+          ++flows;
+        else
+          fields[path.back() + "." + key] = value;
+        continue;
+      }
+      const std::string closed = path.back();
+      path.pop_back();
+      if (closed == "event_names") events[fields["event_names.iid"]] = fields["event_names.name"];
+      if (closed == "debug_annotation_names")
+        arguments[fields["debug_annotation_names.iid"]] = fields["debug_annotation_names.name"];
+      if (closed == "track_descriptor")
+        tracks[fields["track_descriptor.uuid"]] = fields["track_descriptor.name"];
+      if (closed != "packet" || fields.count("track_event.type") == 0) continue;
+      const std::string& type = fields["track_event.type"];
+      const std::string& track = tracks.at(fields["track_event.track_uuid"]);
+      const std::int64_t time = std::stoll(fields.at("packet.timestamp"));
+      if (type == "TYPE_COUNTER") {
+        const bool whole = fields.count("track_event.counter_value") != 0;
+        counters[track].emplace_back(time, std::stod(fields.at(whole ? "track_event.counter_value"
+                                                                     : "track_event.double_counter_value")));
+        continue;
+      }
+      if (type == "TYPE_SLICE_BEGIN") {
+        open[track].push_back(slices[track].size());
+        slices[track].push_back({time, -1, events.at(fields.at("track_event.name_iid")), {}, flows});
+      } else if (!open[track].empty()) {
+        slices[track][open[track].back()].end = time;
+      }
+      // Arguments of its end are the slice's, too.
+      if (!open[track].empty()) {
+        for (const auto& [name, value] : annotations)
+          slices[track][open[track].back()].arguments[arguments.at(name)] = value;
+      }
+      if (type == "TYPE_SLICE_END" && !open[track].empty()) open[track].pop_back();
+    }
+  }
+};
+
+class PerfettoFormat : public TraceFormats {
+ protected:
+  Tracks tracks() const {
+    return Tracks(output_of("protoc --decode=Trace -I " PARALLAX_SOURCE_DIR "/tests/traces events.proto <" +
+                            (program_ / "out/trace.pftrace").string()));
+  }
+};
+
+TEST_F(PerfettoFormat, OfRowsHasTheRowsPortsAndFramesOfCsv) {
+  SKIP_WITHOUT("protoc", "protobuf-compiler");
+  SKIP_WITHOUT("sqlite3", "sqlite3");
+  run("--trace csv,perfetto");
+  const Tracks perfetto = tracks();
+  const Database csv(program_ / "out");
+  for (const std::string& stage : csv.query("select distinct stage from rows")) {
+    std::vector<std::string> slices;
+    for (const Tracks::Slice& slice : perfetto.slices.at(stage)) {
+      if (slice.name.rfind("row ", 0) != 0) continue;
+      EXPECT_GE(slice.flows, 1u);
+      const auto argument = [&](const char* name) {
+        const auto found = slice.arguments.find(name);
+        return found == slice.arguments.end() ? std::string("0") : found->second;
+      };
+      slices.push_back(fmt::format("{}|{}|{}|{}|{}|{}|{}|{}", slice.name, argument("frame"), slice.begin,
+                                   slice.end, argument("firings"), argument("busy_cycles"),
+                                   argument("starved_cycles"), argument("memory_cycles")));
+    }
+    EXPECT_EQ(slices,
+              csv.query("select 'row '||row||(case draining when '1' then ' out' else '' end),frame,begin_ps,"
+                        "busy_until_ps,firings,busy,starved,memory from rows where stage='" +
+                        stage + "'"))
+        << stage;
+  }
+  for (const std::string& port : csv.query("select distinct port from ports")) {
+    std::vector<std::string> slices;
+    for (const Tracks::Slice& slice : perfetto.slices.at("memory: " + port)) {
+      slices.push_back(fmt::format("{}|{}|{}|{}|{}", slice.name, slice.begin, slice.end,
+                                   slice.arguments.at("bytes"), slice.arguments.at("bursts")));
+    }
+    EXPECT_EQ(slices, csv.query("select 'row '||row,begin_ps,end_ps,bytes,bursts from ports where port='" +
+                                port + "'"))
+        << port;
+  }
+  std::set<std::string> frames;
+  for (const auto& [track, slices] : perfetto.slices) {
+    if (track.rfind("frame in flight", 0) != 0) continue;
+    for (const Tracks::Slice& slice : slices) {
+      if (slice.name.rfind("frame ", 0) == 0)
+        frames.insert(fmt::format("{}|{}|{}", slice.name, slice.begin, slice.end));
+    }
+  }
+  const auto expected = csv.query("select 'frame '||frame,exposed_ps,at_host_ps from frames");
+  EXPECT_EQ(frames, std::set<std::string>(expected.begin(), expected.end()));
+}
+
+TEST_F(PerfettoFormat, OfTokensHasTheFiringsLevelsAndBurstsOfCsv) {
+  SKIP_WITHOUT("protoc", "protobuf-compiler");
+  SKIP_WITHOUT("sqlite3", "sqlite3");
+  run(std::string("--trace csv,perfetto ") + kTokens);
+  const Tracks perfetto = tracks();
+  const Database csv(program_ / "out");
+  for (const std::string& stage : csv.query("select distinct stage from firings")) {
+    std::vector<std::string> slices;
+    for (const Tracks::Slice& slice : perfetto.slices.at(stage)) {
+      if (slice.name == "firing" || slice.name == "overhead")
+        slices.push_back(fmt::format("{}|{}", slice.begin, slice.end));
+    }
+    EXPECT_EQ(slices, csv.query("select start_ps,end_ps from firings where stage='" + stage + "'")) << stage;
+  }
+  for (const std::string& line : csv.query("select stream,count(*) from tokens group by stream")) {
+    const std::string stream = line.substr(0, line.find('|'));
+    const auto found = std::find_if(
+        perfetto.counters.begin(), perfetto.counters.end(),
+        [&](const auto& counter) { return counter.first.rfind("FIFO: " + stream + " (", 0) == 0; });
+    ASSERT_NE(found, perfetto.counters.end()) << stream;
+    std::vector<std::string> levels;
+    for (const auto& [time, level] : found->second) levels.push_back(fmt::format("{}|{}", time, level));
+    EXPECT_EQ(levels, csv.query("select end_ps,level from tokens where stream='" + stream + "'")) << stream;
+  }
+  std::size_t bursts = 0;
+  for (const auto& [track, slices] : perfetto.slices)
+    bursts += track.find(" burst ") != std::string::npos ? slices.size() : 0;
+  EXPECT_EQ(static_cast<std::int64_t>(bursts), csv.number("select count(*) from bursts"));
+  for (const auto& [track, counts] : perfetto.counters) {
+    if (track.find("requests under way") == std::string::npos) continue;
+    for (const auto& [time, count] : counts) EXPECT_GE(count, 0) << track;
+  }
+}
+
+}  // namespace
+}  // namespace parallax::test
