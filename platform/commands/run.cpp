@@ -255,13 +255,13 @@ class Run {
     };
     const auto first =
         std::find_if(left.begin(), left.end(), [&](const Relaxation& r) { return relieves(r, part); });
-    if (first != left.end()) {
+    if (first != left.end() && !options_.report) {
       const Relaxation relaxation = *first;
       left.erase(first);
       try_all({relaxation});
     }
     RelaxedLimits limits = relaxed_limits(base, tried, results);
-    if (limits.limit() == nullptr || options_.report) {
+    if (limits.limit() == nullptr) {
       try_all(left);
       limits = relaxed_limits(base, tried, results);
     }
