@@ -14,19 +14,19 @@ RowEnds equal_rows(std::uint64_t units_of_a_row, std::int32_t rows, std::int32_t
   return ends;
 }
 
-void RowCursor::advance(std::uint64_t units) {
-  at_ += units;
-  if (at_ < ends_->ends[row_]) return;
+void RowCursor::leave_row() {
+  const std::vector<std::uint64_t>& ends = ends_->ends;
   // As a rule it is in the next row, or in the one after that.
-  for (int i = 0; i < 2; ++i) {
-    if (++row_ == ends_->ends.size()) break;
-    if (at_ < ends_->ends[row_]) return;
+  for (int i = 0; i < 2 && row_ < ends.size() && at_ >= ends[row_]; ++i) ++row_;
+  if (row_ == ends.size() || at_ >= ends[row_]) {
+    const std::uint64_t frame = ends_->frame();
+    place_.frame += static_cast<std::int64_t>(at_ / frame);
+    at_ %= frame;
+    row_ = static_cast<std::size_t>(std::upper_bound(ends.begin(), ends.end(), at_) - ends.begin());
   }
-  const std::uint64_t frame = ends_->frame();
-  frame_ += static_cast<std::int64_t>(at_ / frame);
-  at_ %= frame;
-  row_ = static_cast<std::size_t>(std::upper_bound(ends_->ends.begin(), ends_->ends.end(), at_) -
-                                  ends_->ends.begin());
+  end_ = ends[row_];
+  place_.tile = static_cast<std::int32_t>(row_) / ends_->rows_of_a_tile;
+  place_.row = static_cast<std::int32_t>(row_) % ends_->rows_of_a_tile;
 }
 
 }  // namespace parallax

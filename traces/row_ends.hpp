@@ -25,22 +25,25 @@ RowEnds equal_rows(std::uint64_t units_of_a_row, std::int32_t rows, std::int32_t
 class RowCursor {
  public:
   /// `ends` must not be empty.
-  explicit RowCursor(std::shared_ptr<const RowEnds> ends) : ends_(std::move(ends)) {}
+  explicit RowCursor(std::shared_ptr<const RowEnds> ends) : ends_(std::move(ends)), end_(ends_->ends[0]) {}
 
   /// Of the next unit.
-  TracePlace place() const {
-    return {frame_, static_cast<std::int32_t>(row_) / ends_->rows_of_a_tile,
-            static_cast<std::int32_t>(row_) % ends_->rows_of_a_tile};
-  }
+  const TracePlace& place() const { return place_; }
   /// Units until the row ends.
-  std::uint64_t left_in_row() const { return ends_->ends[row_] - at_; }
-  void advance(std::uint64_t units);
+  std::uint64_t left_in_row() const { return end_ - at_; }
+  void advance(std::uint64_t units) {
+    at_ += units;
+    if (at_ >= end_) leave_row();
+  }
 
  private:
+  void leave_row();
+
   std::shared_ptr<const RowEnds> ends_;
-  std::int64_t frame_ = 0;
   std::size_t row_ = 0;
+  std::uint64_t end_;     // of that row
   std::uint64_t at_ = 0;  // units of the frame
+  TracePlace place_{0, 0, 0};
 };
 
 }  // namespace parallax

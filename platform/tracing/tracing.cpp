@@ -100,29 +100,21 @@ Tracing::Tracing(const TraceChoice& choice, const Machine& machine, Pace& pace, 
       recorder_("recorder", recorder_config(choice, machine), const_cast<Dataflow&>(machine.dataflow()), pace,
                 [this] { add_parts(); }) {
   for (const std::string& format : choice.formats) {
-    sinks_.push_back(make_sink(format, folder));
+    // A fault ends the simulation, and is thrown by finish(): the kernel would lose its line.
+    sinks_.push_back(std::make_unique<SinkThread>(make_sink(format, folder), [] { sc_core::sc_stop(); }));
     recorder_.add(*sinks_.back());
   }
 }
 
-// A fault must not reach the kernel, it would lose its line.
 ByteSink Tracing::file(OutputFolder& folder, const std::string& name) {
   OutputFile& out = folder.open(name);
-  return [this, &out](std::string_view bytes) {
-    if (failure_) return;
-    try {
-      out.write(bytes);
-    } catch (...) {
-      failure_ = std::current_exception();
-      sc_core::sc_stop();
-    }
-  };
+  return [&out](std::string_view bytes) { out.write(bytes); };
 }
 
 std::unique_ptr<TraceSink> Tracing::make_sink(const std::string& format, OutputFolder& folder) {
   if (format == "csv") {
     return std::make_unique<CsvTrace>(
-        [this, &folder](const std::string& table) { return file(folder, "trace_" + table + ".csv"); });
+        [&folder](const std::string& table) { return file(folder, "trace_" + table + ".csv"); });
   }
   if (format == "json") return std::make_unique<JsonTrace>(file(folder, "trace.json"));
   if (format == "vcd") return std::make_unique<VcdTrace>(file(folder, "trace.vcd"));
@@ -176,12 +168,8 @@ void Tracing::delivered(std::int64_t frame) {
   recorder_.frame(record);
 }
 
-void Tracing::check() const {
-  if (failure_) std::rethrow_exception(failure_);
-}
-
 void Tracing::finish() {
-  check();
+  for (const std::unique_ptr<SinkThread>& sink : sinks_) sink->check();
   std::vector<EndlessWait> waits;
   if (!machine_.finished()) {
     for (const Wait& wait : machine_.dataflow().waits()) {
@@ -189,7 +177,6 @@ void Tracing::finish() {
     }
   }
   recorder_.finish(waits);
-  check();
   const Picoseconds end = date(sc_core::sc_time_stamp());
   if (window_.from && window_.from->time && *window_.from->time >= end) {
     throw UserError(fmt::format("--trace-from: {} us is after the run's end, {} us",

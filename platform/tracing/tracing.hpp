@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <exception>
 #include <memory>
 #include <string>
 #include <vector>
@@ -10,6 +9,7 @@
 #include "platform/results/output_folder.hpp"
 #include "platform/tracing/trace_options.hpp"
 #include "traces/recorder.hpp"
+#include "traces/sink_thread.hpp"
 
 namespace parallax {
 
@@ -43,16 +43,14 @@ class Tracing {
 
  private:
   void add_parts();
-  ByteSink file(OutputFolder& folder, const std::string& name);
-  std::unique_ptr<TraceSink> make_sink(const std::string& format, OutputFolder& folder);
-  void check() const;
+  static ByteSink file(OutputFolder& folder, const std::string& name);
+  static std::unique_ptr<TraceSink> make_sink(const std::string& format, OutputFolder& folder);
 
   const Machine& machine_;
   const std::vector<std::string> wanted_;  // parts; none: all
   const TraceWindow window_;
-  std::vector<std::unique_ptr<TraceSink>> sinks_;
+  std::vector<std::unique_ptr<SinkThread>> sinks_;
   Recorder recorder_;
-  std::exception_ptr failure_;  // of a write
 };
 
 }  // namespace parallax
