@@ -5,8 +5,8 @@
 
 namespace parallax::bench {
 
-/// Processor time that this process has used. What is measured here runs on one thread and waits for nothing,
-/// so this is its wall time on a machine with nothing else to do.
+/// Processor time that this process has used, on all its threads. But for traces, what is measured here runs
+/// on one and waits for nothing, so this is its wall time on a machine with nothing else to do.
 inline double cpu_seconds() {
   std::timespec now{};
   ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <exception>
 #include <fstream>
 #include <iterator>
@@ -32,7 +33,8 @@ constexpr Trace kTraces[] = {{"rows", 25, "", ""}, {"tokens", 1, "1:0", "1:199"}
 constexpr const char* kFormats[] = {"csv", "json", "vcd", "perfetto"};
 
 struct TracedRun {
-  double seconds = 0;        ///< of processor time
+  double seconds = 0;        ///< until the trace is complete
+  double cpu_seconds = 0;    ///< of all threads
   double megabytes = 0;      ///< resident at most
   std::uint64_t events = 0;  ///< lines of CSV tables
 };
@@ -77,10 +79,13 @@ TracedRun run_traced(const Trace& trace, std::int64_t frames, const std::string&
       options.to = trace.to;
       tracing = std::make_unique<Tracing>(read_trace_options(options), machine, pace, folder);
     }
-    const double began = cpu_seconds();
+    using Clock = std::chrono::steady_clock;
+    const Clock::time_point began = Clock::now();
+    const double cpu_began = cpu_seconds();
     sc_core::sc_start();
     if (tracing) tracing->finish();
-    run.seconds = cpu_seconds() - began;
+    run.seconds = std::chrono::duration<double>(Clock::now() - began).count();
+    run.cpu_seconds = cpu_seconds() - cpu_began;
     run.megabytes = peak_memory_megabytes();
     if (!machine.finished()) throw std::runtime_error("the machine got stuck");
     folder.publish();
@@ -101,6 +106,8 @@ void measure(benchmark::State& state, const Trace& trace, std::int64_t frames, c
       state.SetIterationTime(std::max(seconds, 1e-9));
       state.counters["million_events"] = static_cast<double>(events) * 1e-6;
       state.counters["ns_per_event"] = seconds * 1e9 / static_cast<double>(events);
+      state.counters["cpu_ns_per_event"] =
+          (with.cpu_seconds - without.cpu_seconds) * 1e9 / static_cast<double>(events);
       state.counters["peak_MB"] = with.megabytes;
       state.counters["MB_without"] = without.megabytes;
     } catch (const std::exception& e) {
