@@ -14,7 +14,7 @@ namespace parallax::trace_columns {
 /// Of a part; empty for kNoPart.
 template <class Part>
 std::string_view name_of(const std::vector<Part>& parts, PartId id) {
-  return id == kNoPart ? std::string_view() : parts[static_cast<std::size_t>(id)].name;
+  return id == kNoPart ? std::string_view("") : parts[static_cast<std::size_t>(id)].name;
 }
 
 template <class Row>

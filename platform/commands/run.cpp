@@ -229,9 +229,10 @@ class Run {
     input.width = size_.width;
     input.height = size_.height;
     input.map = &rectification_.map;
-    // No longer than this run, and no longer than the steady state takes.
-    input.timing_frames =
-        std::min(total_frames_, frames_to_simulate(configuration_.machine, 1, std::nullopt));
+    // A run that was asked to be short is compared with short ones.
+    const std::int64_t usual = frames_to_simulate(configuration_.machine, 1, std::nullopt);
+    if (options_.timing_frames && *options_.timing_frames < usual)
+      input.timing_frames = options_.timing_frames;
     return input;
   }
 
