@@ -114,7 +114,10 @@ class Run {
     if (options_.left.empty() && options_.input.empty()) totals_.scene_seed = options_.scene.seed;
     if (!machine.finished()) return report_stuck(machine);
     MetricGroup metrics = measure(machine, totals_, size_.width, size_.height);
-    judge(metrics, [&] { return interruption.requested(); });
+    if (!judge(metrics, [&] { return interruption.requested(); })) {
+      write(tree_of(metrics));
+      return interrupted(interruption.signal());
+    }
     report(metrics);
     return 0;
   }
@@ -238,8 +241,9 @@ class Run {
 
   // What limits, by taking limits away: first that of the busiest part; if it gains nothing, or all are to be
   // reported, all the others.
-  void judge(MetricGroup& metrics, const std::function<bool()>& interrupted) {
-    if (!standby_ || std::get<double>(metrics.at("performance/frame_rate").value) == 0) return;
+  // Says no when it was interrupted.
+  bool judge(MetricGroup& metrics, const std::function<bool()>& interrupted) {
+    if (!standby_ || std::get<double>(metrics.at("performance/frame_rate").value) == 0) return true;
     const nlohmann::ordered_json base = to_json(metrics);
     const std::string part = base.at("limit").at("part").at("value");
     std::vector<Relaxation> left = relaxations(configuration_.machine, base);
@@ -266,9 +270,10 @@ class Run {
       try_all(left);
       limits = relaxed_limits(base, tried, results);
     }
-    if (interrupted()) return;
+    if (interrupted()) return false;
     if (options_.report) folder_->write("relaxations.json", to_json(limits).dump(2) + "\n");
     add_verdict(metrics, verdict(base, limits), limits);
+    return true;
   }
 
   nlohmann::ordered_json tree_of(const MetricGroup& metrics) const {

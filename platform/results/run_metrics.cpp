@@ -32,18 +32,21 @@ void add_performance(MetricGroup& root, const Machine& machine, const SteadyWind
 void add_latency(MetricGroup& root, const Machine& machine, const SteadyWindow& window) {
   MetricGroup& group = root.group("latency");
   const FrameLatencies& latencies = machine.latencies();
+  // Of the frame whose arrival begins the window, too.
+  const std::string frames =
+      window.frames() == 0 ? window.text : fmt::format("frames {} to {}", window.first + 1, window.last + 1);
   for (std::size_t i = 0; i < frame_spans().size(); ++i) {
     const FrameSpan& span = frame_spans()[i];
     const LatencyHistogram& steady = latencies.steady(i);
-    const auto add = [&](const char* what, const sc_core::sc_time& time, const std::string& frames) {
-      group.add({fmt::format("{}_{}", span.name, what), seconds(time) * 1e3, "ms", span.description, frames});
+    const auto add = [&](const char* what, const sc_core::sc_time& time, const std::string& of) {
+      group.add({fmt::format("{}_{}", span.name, what), seconds(time) * 1e3, "ms", span.description, of});
     };
     add("first_frame", span.of(latencies.first_frame()), "frame 1");
-    add("mean", steady.mean(), window.text);
-    add("p50", steady.percentile(0.5), window.text);
-    add("p95", steady.percentile(0.95), window.text);
-    add("p99", steady.percentile(0.99), window.text);
-    add("largest", steady.largest(), window.text);
+    add("mean", steady.mean(), frames);
+    add("p50", steady.percentile(0.5), frames);
+    add("p95", steady.percentile(0.95), frames);
+    add("p99", steady.percentile(0.99), frames);
+    add("largest", steady.largest(), frames);
   }
 }
 

@@ -74,9 +74,10 @@ class TraceNumbers : public testing::TestWithParam<Case> {
       const auto ps = [&](const std::string& of) {
         return std::llround(metric<double>(latency, fmt::format("{}_{}", span, of)) * 1e9);
       };
-      // Of the frame whose arrival begins the window, too.
-      const std::string steady =
-          fmt::format("from frames where frame+0 between {} and {}", first_ - 1, last_);
+      int first = 0, last = 0;
+      const std::string frames = latency.at(fmt::format("{}_mean", span)).at("window");
+      EXPECT_EQ(std::sscanf(frames.c_str(), "frames %d to %d", &first, &last), 2) << frames;
+      const std::string steady = fmt::format("from frames where frame+0 between {} and {}", first, last);
       EXPECT_EQ(ps("first_frame"),
                 trace.number(fmt::format("select {}_ps-{}_ps from frames where frame='1'", to, from)));
       EXPECT_EQ(ps("largest"), trace.number(fmt::format("select max({}_ps-{}_ps) {}", to, from, steady)));
