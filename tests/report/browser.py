@@ -8,6 +8,7 @@ import argparse
 import json
 import pathlib
 import sys
+import time
 
 from selenium import webdriver
 from selenium.webdriver.chrome.service import Service
@@ -37,6 +38,16 @@ def open_browser(script):
 
 def details(driver):
     return driver.find_element(By.ID, "details").text
+
+
+def settled(driver):
+    """What sticks out when charts have had time to follow the window."""
+    for _ in range(50):
+        wider = driver.execute_script(WIDER)
+        if not wider:
+            break
+        time.sleep(0.1)
+    return wider
 
 
 def act(driver):
@@ -77,7 +88,7 @@ def look(driver, page, script):
         found.update(act(driver))
         found["print_bytes"] = len(driver.print_page())
         driver.set_window_size(500, 900)
-        found["sticks_out"] = driver.execute_script(WIDER)
+        found["sticks_out"] = settled(driver)
         driver.set_window_size(1280, 1000)
     found["console"] = [entry["message"] for entry in driver.get_log("browser") if entry["level"] == "SEVERE"]
     sent = [json.loads(entry["message"])["message"] for entry in driver.get_log("performance")]
