@@ -3,7 +3,6 @@
 
 #include <fcntl.h>
 #include <poll.h>
-#include <sys/prctl.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -12,6 +11,8 @@
 #include <cerrno>
 #include <csignal>
 #include <system_error>
+
+#include "platform/forked_child.hpp"
 
 namespace parallax {
 namespace {
@@ -39,13 +40,7 @@ class Descriptor {
 
 // The child, from the moment it exists.
 [[noreturn]] void run_child(const std::function<std::string()>& function, int out, pid_t parent) noexcept {
-  for (const int signal : {SIGINT, SIGTERM}) {
-    struct sigaction action {};
-    ::sigaction(signal, nullptr, &action);
-    if (action.sa_handler != SIG_IGN) std::signal(signal, SIG_DFL);
-  }
-  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (::getppid() != parent) ::_exit(1);  // it died before that was set
+  become_child_of(parent);
   const std::string text = function();
   for (std::size_t sent = 0; sent < text.size();) {
     const ssize_t count = ::write(out, text.data() + sent, text.size() - sent);

@@ -3,7 +3,6 @@
 
 #include <fcntl.h>
 #include <poll.h>
-#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -14,6 +13,8 @@
 #include <cstdint>
 #include <cstring>
 #include <system_error>
+
+#include "platform/forked_child.hpp"
 
 namespace parallax {
 namespace {
@@ -71,13 +72,7 @@ void ForkedWorkers::start(Worker& worker, const std::function<std::string(const 
   const pid_t parent = ::getpid();
   worker.process = ::fork();
   if (worker.process == 0) {
-    for (const int signal : {SIGINT, SIGTERM}) {
-      struct sigaction action {};
-      ::sigaction(signal, nullptr, &action);
-      if (action.sa_handler != SIG_IGN) std::signal(signal, SIG_DFL);
-    }
-    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (::getppid() != parent) ::_exit(1);  // it died before that was set
+    become_child_of(parent);
     ::close(requests[1]);
     ::close(answers[0]);
     for (const Worker& other : workers_) {

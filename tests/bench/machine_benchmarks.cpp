@@ -22,7 +22,7 @@ struct Size {
   int iterations;  ///< of 32 disparities
 };
 
-constexpr Size kSizes[] = {{"640x480_128", 640, 480, 4}, {"1856x1856_256", 1856, 1856, 8}};
+constexpr Size kSizes[] = {{"640x480_128", 640, 480, 4}, {"1728x1856_256", 1728, 1856, 8}};
 constexpr double kMilli = 1e3;
 
 MachineConfig configuration(const Size& size) {

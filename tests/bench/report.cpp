@@ -85,7 +85,7 @@ void Report::print_chains() {
 
 void Report::print_machines() {
   std::string rows;
-  for (const char* size : {"640x480_128", "1856x1856_256"}) {
+  for (const char* size : {"640x480_128", "1728x1856_256"}) {
     const std::string steady = fmt::format("machine/steady/{}", size);
     const std::string start_up = fmt::format("machine/start_up/{}", size);
     const double ms = counter(steady, kMilliseconds);
