@@ -16,7 +16,7 @@ namespace {
 // Between two looks for periodic motion at the beginning of a run.
 constexpr std::uint64_t kLeastFirings = 200;
 // Each failure doubles the firings until the next look, so many times.
-constexpr unsigned kMostPatience = 1;
+constexpr unsigned kMostPatience = 2;
 
 }  // namespace
 

@@ -44,7 +44,7 @@ class Dataflow final : public sc_core::sc_module {
  public:
   /// Firings between two looks for periodic motion (leap.hpp): often enough to miss little, seldom enough to
   /// cost little.
-  static constexpr std::uint64_t kLeapInterval = 600;
+  static constexpr std::uint64_t kLeapInterval = 150;
 
   /// `leap_interval`: 0 for no leaps: every firing is gone through one by one.
   explicit Dataflow(const sc_core::sc_module_name& name, std::uint64_t leap_interval = kLeapInterval);
@@ -79,6 +79,7 @@ class Dataflow final : public sc_core::sc_module {
   bool step();
   void drain();  // actions and actors until nobody can move
   bool attempt_leaps();
+  void look_anew() { firings_ = failures_ = 0; }
   void hold(Actor& actor, Leap* leap, bool active);
   void release(Actor& actor);
 

@@ -4,11 +4,12 @@
 namespace parallax {
 
 DramAddress::DramAddress(const DramTiming& timing, DramMapping mapping)
-    : row_bytes_(static_cast<std::uint64_t>(timing.row_bytes())),
-      burst_bytes_(static_cast<std::uint64_t>(timing.burst_bytes())),
-      groups_(static_cast<std::uint64_t>(timing.bank_groups)),
-      banks_(static_cast<std::uint64_t>(timing.banks)),
-      rows_(static_cast<std::uint64_t>(timing.rows)),
+    : row_bytes_(timing.row_bytes()),
+      burst_bytes_(timing.burst_bytes()),
+      groups_(timing.bank_groups),
+      banks_(timing.banks),
+      group_banks_(timing.banks / timing.bank_groups),
+      rows_(timing.rows),
       mapping_(mapping) {}
 
 }  // namespace parallax

@@ -25,32 +25,49 @@ class DramAddress {
   DramAddress(const DramTiming& timing, DramMapping mapping);
 
   DramPlace place(std::uint64_t address) const {
-    const std::uint64_t above = address / row_bytes_;
+    const std::uint64_t above = row_bytes_.quotient(address);
     switch (mapping_) {
       case DramMapping::kRowBankColumn:
-        return at(above % banks_, above / banks_);
+        return at(banks_.remainder(above), banks_.quotient(above));
       case DramMapping::kBankRowColumn:
-        return at(above / rows_, above);
+        return at(rows_.quotient(above), above);
       case DramMapping::kRowBankColumnGroup: {
         // A row of each group lies side by side, burst by burst.
-        const std::uint64_t rows = above / groups_;
-        const std::uint64_t in_group = banks_ / groups_;
-        return at(rows % in_group * groups_ + address / burst_bytes_ % groups_, rows / in_group);
+        const std::uint64_t rows = groups_.quotient(above);
+        const std::uint64_t group = groups_.remainder(burst_bytes_.quotient(address));
+        return at(group_banks_.remainder(rows) * groups_.value() + group, group_banks_.quotient(rows));
       }
     }
     return {};
   }
 
  private:
+  // Divides by what is a power of two in nearly all devices.
+  class Divisor {
+   public:
+    explicit Divisor(std::int64_t value)
+        : value_(static_cast<std::uint64_t>(value)),
+          shift_((value_ & (value_ - 1)) == 0 ? __builtin_ctzll(value_) : -1) {}
+    std::uint64_t value() const { return value_; }
+    std::uint64_t quotient(std::uint64_t x) const { return shift_ < 0 ? x / value_ : x >> shift_; }
+    std::uint64_t remainder(std::uint64_t x) const { return shift_ < 0 ? x % value_ : x & (value_ - 1); }
+
+   private:
+    std::uint64_t value_;
+    int shift_;
+  };
+
   DramPlace at(std::uint64_t bank, std::uint64_t row) const {
-    return {static_cast<std::uint32_t>(bank % banks_), static_cast<std::uint32_t>(row % rows_)};
+    return {static_cast<std::uint32_t>(banks_.remainder(bank)),
+            static_cast<std::uint32_t>(rows_.remainder(row))};
   }
 
-  std::uint64_t row_bytes_;
-  std::uint64_t burst_bytes_;
-  std::uint64_t groups_;
-  std::uint64_t banks_;
-  std::uint64_t rows_;
+  Divisor row_bytes_;
+  Divisor burst_bytes_;
+  Divisor groups_;
+  Divisor banks_;
+  Divisor group_banks_;
+  Divisor rows_;
   DramMapping mapping_;
 };
 

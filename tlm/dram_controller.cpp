@@ -44,23 +44,16 @@ DramController::DramController(const DramTiming& timing, const DramPolicy& polic
       refresh_due_(timing.refi > 0 ? timing.refi : kNever),
       wanted_(static_cast<std::size_t>(timing.banks)) {
   activates_.fill(kLongAgo);
-  reads_.reserve(policy.read_queue);
-  writes_.reserve(policy.write_queue);
-}
-
-void DramController::submit(const Burst& burst, Clock clock) {
-  (burst.write ? writes_ : reads_).push_back({burst, clock});
-  std::int64_t& misses = misses_[burst.write ? 1 : 0];
-  if (misses >= 0 && banks_[burst.place.bank].open_row != std::int64_t{burst.place.row}) ++misses;
-  changed_ = clock;
-  planned_ = planned_ && direction() == plan_writing_ && (burst.write != plan_writing_ || plan_newest());
+  for (std::size_t bank = 0; bank < banks_.size(); ++bank) banks_[bank].group = bank % groups_.size();
+  reads_.entries.reserve(policy.read_queue);
+  writes_.entries.reserve(policy.write_queue);
 }
 
 // Adds the burst that entered last to the plan; false when that takes a new one. Only what it can do sooner
 // than the plan matters: of several in one clock the older goes first.
 bool DramController::plan_newest() {
-  const std::size_t index = queue().size() - 1;
-  const Entry& entry = queue()[index];
+  const std::size_t index = queue().entries.size() - 1;
+  const Entry& entry = queue().entries[index];
   const std::uint32_t number = entry.burst.place.bank;
   Plan newest;
   const bool hit = banks_[number].open_row == std::int64_t{entry.burst.place.row};
@@ -74,55 +67,56 @@ bool DramController::plan_newest() {
     wanted_[number] = kPrepare;
     newest = plan_row(entry, index);
   }
-  if (newest.clock < std::min(plan_.clock, refresh_due_)) plan_ = newest;
+  if (newest.clock < std::min(plan_.clock, refresh_due_)) {
+    plan_ = newest;
+    refresh_next_ = false;
+  }
   return true;
 }
 
-void DramController::run_until(Clock limit, std::vector<Done>& done) {
-  for (plan(); plan_.clock < limit; plan()) {
+void DramController::issue_until(Clock limit, std::vector<Done>& done) {
+  for (plan_exactly(); plan_.clock < limit; plan_exactly()) {
     if (idle() && plan_.command == DramCommand::kRefresh && listener_ == nullptr) skip_refreshes(limit);
     issue(done);
   }
-  // A direction is chosen in the clock after a queue has changed, when all that entered with the change is
-  // known.
-  if (changed_ + 1 < limit) writing_ = plan_writing_;
 }
 
 DramController::Clock DramController::next_command() {
-  plan();
-  return idle() ? kNever : plan_.clock;
+  if (idle()) return kNever;
+  plan_exactly();
+  return plan_.clock;
 }
 
-bool DramController::direction() const {
-  if (!writing_) return writes_.size() >= policy_.high_watermark || (reads_.empty() && !writes_.empty());
-  return !writes_.empty() && (writes_.size() > policy_.low_watermark || reads_.empty());
-}
-
-void DramController::plan() {
-  if (planned_) return;
+void DramController::plan_anew() {
   plan_writing_ = direction();
-  plan_ = plan_queue();
-  if (plan_.clock >= refresh_due_) plan_ = plan_refresh(std::max(refresh_due_, command_free_));
+  oldest_planned_ = plan_oldest();
+  if (!oldest_planned_) plan_ = plan_queue();
+  refresh_next_ = plan_.clock >= refresh_due_;
+  if (refresh_next_) plan_ = {std::max(refresh_due_, command_free_)};
   planned_ = true;
+}
+
+void DramController::plan_exactly() {
+  plan();
+  if (refresh_next_) plan_ = plan_refresh(plan_.clock);
+  refresh_next_ = false;
 }
 
 // The plan when all rows are open and may be read and written, which is simply the oldest burst's; false when
 // it takes more to know.
-bool DramController::plan_oldest(Plan& plan) const {
-  const std::vector<Entry>& entries = plan_writing_ ? writes_ : reads_;
-  if (groups_.size() > 1 || misses_[plan_writing_ ? 1 : 0] != 0 || entries.empty()) return false;
-  plan = plan_column(entries.front(), 0);
-  return banks_[entries.front().burst.place.bank].column < plan.clock;
+bool DramController::plan_oldest() {
+  const Queue& queue = plan_writing_ ? writes_ : reads_;
+  if (groups_.size() > 1 || queue.misses != 0 || queue.bursts == 0) return false;
+  const Entry& oldest = queue.entries.front();
+  plan_ = plan_column(oldest, 0);
+  return banks_[oldest.burst.place.bank].column < plan_.clock;
 }
 
 // The earliest command for the queue that is being served; of several in one clock the oldest burst's.
 DramController::Plan DramController::plan_queue() {
   Plan column;
   Plan row;
-  oldest_planned_ = plan_oldest(column);
-  if (oldest_planned_) return column;
-  column = {};
-  const std::vector<Entry>& entries = queue();
+  const std::vector<Entry>& entries = queue().entries;
   std::fill(wanted_.begin(), wanted_.end(), std::uint8_t{0});
   std::size_t hits = 0;
   for (std::size_t i = 0; i < entries.size(); ++i) {
@@ -134,7 +128,7 @@ DramController::Plan DramController::plan_queue() {
     const Plan plan = plan_column(entries[i], i);
     if (plan.clock < column.clock) column = plan;
   }
-  misses() = static_cast<std::int64_t>(entries.size() - hits);
+  queue().misses = static_cast<std::int64_t>(entries.size() - hits);
   for (std::size_t i = 0; i < entries.size() && hits < entries.size(); ++i) {
     std::uint8_t& wanted = wanted_[entries[i].burst.place.bank];
     if (wanted != 0) continue;  // its row is wanted, or an older burst prepares it
@@ -146,14 +140,10 @@ DramController::Plan DramController::plan_queue() {
   return column.entry < row.entry ? column : row;
 }
 
-// What could have been done before the last change has been done, or the direction was another.
-DramController::Clock DramController::earliest(const Entry& entry) const {
-  return std::max({command_free_, changed_ + 1, entry.entered + 1});
-}
-
 // The read or write of a burst whose row is open.
 DramController::Plan DramController::plan_column(const Entry& entry, std::size_t index) const {
-  const Clock ready = std::max(earliest(entry), column_ready(entry.burst));
+  // What could have been done before the last change has been done, or the direction was another.
+  const Clock ready = std::max({command_free_, changed_ + 1, column_ready(entry.burst)});
   return {ready, entry.burst.write ? DramCommand::kWrite : DramCommand::kRead, index};
 }
 
@@ -162,7 +152,8 @@ DramController::Plan DramController::plan_row(const Entry& entry, std::size_t in
   const std::uint32_t number = entry.burst.place.bank;
   const Bank& bank = banks_[number];
   const bool closed = bank.open_row < 0;
-  const Clock ready = std::max(earliest(entry), closed ? activate_ready(number) : bank.precharge);
+  const Clock ready =
+      std::max({command_free_, changed_ + 1, closed ? activate_ready(number) : bank.precharge});
   return {ready, closed ? DramCommand::kActivate : DramCommand::kPrecharge, index};
 }
 
@@ -178,21 +169,15 @@ DramController::Plan DramController::plan_refresh(Clock at) const {
 }
 
 DramController::Clock DramController::column_ready(const Burst& burst) const {
-  const std::uint32_t bank = burst.place.bank;
-  const Group& group = groups_[group_of(bank)];
-  const Clock ready = std::max(banks_[bank].column, column_free_);
-  if (burst.write) {
-    return std::max({ready, any_.last_write + timing_.ccd, group.last_write + timing_.ccd_group,
-                     any_.last_read + timing_.rtw});
-  }
-  const Clock written = timing_.cwl + timing_.burst_clocks();
-  return std::max({ready, any_.last_read + timing_.ccd, group.last_read + timing_.ccd_group,
-                   any_.last_write + written + timing_.wtr, group.last_write + written + timing_.wtr_group});
+  const Bank& bank = banks_[burst.place.bank];
+  const Free& group = groups_[bank.group];
+  const Clock others = burst.write ? std::max(any_.write, group.write) : std::max(any_.read, group.read);
+  return std::max({bank.column, column_free_, others});
 }
 
-DramController::Clock DramController::activate_ready(std::uint32_t bank) const {
-  return std::max({banks_[bank].activate, any_.last_activate + timing_.rrd,
-                   groups_[group_of(bank)].last_activate + timing_.rrd_group,
+DramController::Clock DramController::activate_ready(std::uint32_t number) const {
+  const Bank& bank = banks_[number];
+  return std::max({bank.activate, any_.activate, groups_[bank.group].activate,
                    activates_[oldest_activate_] + timing_.faw});
 }
 
@@ -200,38 +185,38 @@ void DramController::issue(std::vector<Done>& done) {
   const Plan plan = plan_;
   writing_ = plan_writing_;
   changed_ = plan.clock;
-  const DramPlace place = plan.command == DramCommand::kRefresh || plan.command == DramCommand::kPrechargeAll
-                              ? DramPlace{}
-                              : queue()[plan.entry].burst.place;
-  if (listener_ != nullptr) listener_->command(plan.clock, plan.command, place.bank, place.row);
-  switch (plan.command) {
-    case DramCommand::kActivate:
-      activate(plan.clock, place);
-      break;
-    case DramCommand::kPrecharge:
-      ++statistics_.precharges;
-      precharge(plan.clock, banks_[place.bank]);
-      break;
-    case DramCommand::kPrechargeAll:
-      ++statistics_.precharges;
-      for (Bank& bank : banks_) {
-        if (bank.open_row >= 0) precharge(plan.clock, bank);
-      }
-      refresh_free_ = plan.clock + timing_.rp_all;
-      break;
-    case DramCommand::kRead:
-    case DramCommand::kWrite: {
-      const Burst burst = queue()[plan.entry].burst;
-      queue().erase(queue().begin() + static_cast<std::ptrdiff_t>(plan.entry));
-      column(plan.clock, burst, done);
-      break;
-    }
-    case DramCommand::kRefresh:
-      refresh(plan.clock);
-      break;
+  if (plan.command == DramCommand::kRead || plan.command == DramCommand::kWrite) {
+    Queue& from = queue();
+    Entry& entry = from.entries[plan.entry];
+    const Burst burst = entry.burst;
+    tell(plan.clock, plan.command, burst.place);
+    --from.bursts;
+    if (--entry.bursts == 0) from.entries.erase(from.entries.begin() + static_cast<std::ptrdiff_t>(plan.entry));
+    column(plan.clock, burst, done);
+  } else {
+    issue_row(plan);
   }
   command_free_ = plan.clock + 1;
   planned_ = false;
+}
+
+// A command that is no read or write.
+void DramController::issue_row(const Plan& plan) {
+  if (plan.command == DramCommand::kRefresh || plan.command == DramCommand::kPrechargeAll) {
+    tell(plan.clock, plan.command, {});
+    if (plan.command == DramCommand::kRefresh) return refresh(plan.clock);
+    ++statistics_.precharges;
+    for (Bank& bank : banks_) {
+      if (bank.open_row >= 0) precharge(plan.clock, bank);
+    }
+    refresh_free_ = plan.clock + timing_.rp_all;
+    return;
+  }
+  const DramPlace place = queue().entries[plan.entry].burst.place;
+  tell(plan.clock, plan.command, place);
+  if (plan.command == DramCommand::kActivate) return activate(plan.clock, place);
+  ++statistics_.precharges;
+  precharge(plan.clock, banks_[place.bank]);
 }
 
 void DramController::activate(Clock at, const DramPlace& place) {
@@ -242,8 +227,8 @@ void DramController::activate(Clock at, const DramPlace& place) {
   bank.column = at + timing_.rcd;
   bank.activate = at + timing_.rc;
   bank.precharge = at + timing_.ras;
-  any_.last_activate = at;
-  groups_[group_of(place.bank)].last_activate = at;
+  any_.activate = at + timing_.rrd;
+  groups_[bank.group].activate = at + timing_.rrd_group;
   activates_[oldest_activate_] = at;
   oldest_activate_ = (oldest_activate_ + 1) % activates_.size();
 }
@@ -256,16 +241,22 @@ void DramController::precharge(Clock at, Bank& bank) {
 
 void DramController::column(Clock at, const Burst& burst, std::vector<Done>& done) {
   Bank& bank = banks_[burst.place.bank];
-  Group& group = groups_[group_of(burst.place.bank)];
+  Free& group = groups_[bank.group];
   const Clock data = at + (burst.write ? timing_.cwl : timing_.cl) + timing_.burst_clocks();
+  const auto not_before = [](Clock& free, Clock clock) { free = std::max(free, clock); };
   if (burst.write) {
     ++statistics_.writes;
-    any_.last_write = group.last_write = at;
-    bank.precharge = std::max(bank.precharge, data + timing_.wr);
+    any_.write = at + timing_.ccd;
+    group.write = at + timing_.ccd_group;
+    not_before(any_.read, data + timing_.wtr);
+    not_before(group.read, data + timing_.wtr_group);
+    not_before(bank.precharge, data + timing_.wr);
   } else {
     ++statistics_.reads;
-    any_.last_read = group.last_read = at;
-    bank.precharge = std::max(bank.precharge, at + timing_.rtp);
+    any_.read = at + timing_.ccd;
+    group.read = at + timing_.ccd_group;
+    not_before(any_.write, at + timing_.rtw);
+    not_before(bank.precharge, at + timing_.rtp);
   }
   if (statistics_.reads + statistics_.writes > 1 && burst.write != last_was_write_)
     ++statistics_.turn_arounds;
@@ -316,20 +307,17 @@ bool DramController::serve_alone(const Burst& burst, std::uint64_t number, Clock
     next = at + 1;
     column_at = at + pace;
   }
-  const auto tell = [&](Clock at, DramCommand command) {
-    if (listener_ != nullptr) listener_->command(at, command, burst.place.bank, burst.place.row);
-  };
   if (close >= 0) {
-    tell(close, DramCommand::kPrecharge);
+    tell(close, DramCommand::kPrecharge, burst.place);
     ++statistics_.precharges;
     precharge(close, banks_[burst.place.bank]);
   }
   if (open >= 0) {
-    tell(open, DramCommand::kActivate);
+    tell(open, DramCommand::kActivate, burst.place);
     activate(open, burst.place);
   }
   for (const Clock at : columns_) {
-    tell(at, burst.write ? DramCommand::kWrite : DramCommand::kRead);
+    tell(at, burst.write ? DramCommand::kWrite : DramCommand::kRead, burst.place);
     column(at, burst, done);
   }
   writing_ = burst.write;

@@ -75,11 +75,23 @@ class DramController {
 
   /// Whether the queue has a place for another one.
   bool room(bool write) const {
-    return write ? writes_.size() < policy_.write_queue : reads_.size() < policy_.read_queue;
+    return write ? writes_.bursts < policy_.write_queue : reads_.bursts < policy_.read_queue;
   }
   /// Takes a burst in clock `clock`; needs room, and run_until(clock + 1) before, so that what happens in
   /// that clock is not caused by it.
-  void submit(const Burst& burst, Clock clock);
+  void submit(const Burst& burst, Clock clock) {
+    Queue& queue = burst.write ? writes_ : reads_;
+    changed_ = clock;
+    ++queue.bursts;
+    if (!queue.entries.empty() && queue.entries.back().joins(burst)) {
+      ++queue.entries.back().bursts;  // which can go no sooner than those before
+      planned_ = planned_ && direction() == plan_writing_;
+      return;
+    }
+    queue.entries.push_back({burst, 1});
+    if (queue.misses >= 0 && banks_[burst.place.bank].open_row != std::int64_t{burst.place.row}) ++queue.misses;
+    planned_ = planned_ && direction() == plan_writing_ && (burst.write != plan_writing_ || plan_newest());
+  }
   /// Takes `number` bursts of one row that enter one a clock from `clock` on, and issues all that they cause,
   /// provided that the last command of it comes before `limit`, no refresh falls between, and the controller
   /// is idle; else does nothing and returns false. It is what submit() and run_until() do, sooner done. Needs
@@ -87,30 +99,45 @@ class DramController {
   bool serve_alone(const Burst& burst, std::uint64_t number, Clock clock, Clock limit,
                    std::vector<Done>& done);
   /// Issues all commands before clock `limit`; appends the bursts whose command that was, in order.
-  void run_until(Clock limit, std::vector<Done>& done);
+  void run_until(Clock limit, std::vector<Done>& done) {
+    plan();
+    if (plan_.clock < limit) issue_until(limit, done);
+    // A direction is chosen in the clock after a queue has changed, when all that entered with the change is
+    // known.
+    if (changed_ + 1 < limit) writing_ = plan_writing_;
+  }
   /// Clock of the next command if nothing else arrives; kNever when it waits for nothing but refreshes.
   Clock next_command();
-  bool idle() const { return reads_.empty() && writes_.empty(); }
+  bool idle() const { return reads_.bursts + writes_.bursts == 0; }
 
   const DramStatistics& statistics() const { return statistics_; }
   const DramTiming& timing() const { return timing_; }
   void listen(DramListener* listener) { listener_ = listener; }
 
  private:
-  struct Entry {
+  struct Entry {  // bursts of one row with one tag, one after the other
     Burst burst;
-    Clock entered;
+    std::size_t bursts;
+    bool joins(const Burst& next) const {
+      return burst.tag == next.tag && burst.place.bank == next.place.bank && burst.place.row == next.place.row;
+    }
+  };
+  struct Queue {
+    std::vector<Entry> entries;  // by age
+    std::size_t bursts = 0;
+    std::int64_t misses = 0;  // entries whose row is not open; -1: to be counted
   };
   struct Bank {
+    std::size_t group = 0;
     std::int64_t open_row = -1;
     Clock column = 0;     // earliest read or write of the open row
     Clock activate = 0;   // earliest
     Clock precharge = 0;  // earliest
   };
-  struct Group {
-    Clock last_read = kLongAgo;
-    Clock last_write = kLongAgo;
-    Clock last_activate = kLongAgo;
+  struct Free {  // earliest clock of a command that other banks allow
+    Clock read = kLongAgo;
+    Clock write = kLongAgo;
+    Clock activate = kLongAgo;
   };
   struct Plan {
     Clock clock = kNever;
@@ -119,19 +146,29 @@ class DramController {
   };
   static constexpr Clock kLongAgo = -(1ll << 40);
 
-  std::vector<Entry>& queue() { return plan_writing_ ? writes_ : reads_; }
-  bool direction() const;
+  Queue& queue() { return plan_writing_ ? writes_ : reads_; }
+  bool direction() const {
+    const bool only_writes = reads_.bursts == 0 && writes_.bursts != 0;
+    return only_writes || (writing_ ? writes_.bursts > policy_.low_watermark : writes_.bursts >= policy_.high_watermark);
+  }
   Plan plan_queue();
-  bool plan_oldest(Plan& plan) const;
-  std::int64_t& misses() { return misses_[plan_writing_ ? 1 : 0]; }
-  void rows_change() { misses_.fill(-1); }
+  bool plan_oldest();
+  void rows_change() { reads_.misses = writes_.misses = -1; }
   bool plan_newest();
   Plan plan_column(const Entry& entry, std::size_t index) const;
   Plan plan_row(const Entry& entry, std::size_t index) const;
-  Clock earliest(const Entry& entry) const;
   Plan plan_refresh(Clock at) const;
-  void plan();
+  void plan() {
+    if (!planned_) plan_anew();
+  }
+  void plan_anew();
+  void plan_exactly();
+  void issue_until(Clock limit, std::vector<Done>& done);
   void issue(std::vector<Done>& done);
+  void issue_row(const Plan& plan);
+  void tell(Clock at, DramCommand command, const DramPlace& place) const {
+    if (listener_ != nullptr) listener_->command(at, command, place.bank, place.row);
+  }
   void activate(Clock at, const DramPlace& place);
   void precharge(Clock at, Bank& bank);
   void column(Clock at, const Burst& burst, std::vector<Done>& done);
@@ -140,18 +177,15 @@ class DramController {
   void refresh(Clock at);
   Clock column_ready(const Burst& burst) const;
   Clock activate_ready(std::uint32_t bank) const;
-  std::uint32_t group_of(std::uint32_t bank) const {
-    return bank % static_cast<std::uint32_t>(groups_.size());
-  }
 
   const DramTiming timing_;
   const DramPolicy policy_;
-  std::vector<Entry> reads_;   // by age
-  std::vector<Entry> writes_;  // by age
+  Queue reads_;
+  Queue writes_;
   bool writing_ = false;       // whether a batch of writes is under way
   std::vector<Bank> banks_;
-  std::vector<Group> groups_;
-  Group any_;                         // of all groups
+  std::vector<Free> groups_;          // what each bank group allows,
+  Free any_;                          // and all of them
   std::array<Clock, 4> activates_{};  // the last four, in a ring
   std::size_t oldest_activate_ = 0;
   Clock command_free_ = 0;  // next clock without a command
@@ -161,12 +195,11 @@ class DramController {
   Clock refresh_free_ = 0;  // after the precharge of all banks
   bool last_was_write_ = false;
   Plan plan_;
+  bool refresh_next_ = false;  // the plan is a refresh or what it takes; its clock is not exact, but not before
   bool plan_writing_ = false;  // from the queue of writes
   Clock changed_ = -1;         // last clock in which a queue changed, or a command was issued
   bool planned_ = false;
   std::vector<std::uint8_t> wanted_;  // per bank: how plan_queue() has seen it
-  // Bursts in the queues of reads and of writes whose row is not open; -1: to be counted.
-  std::array<std::int64_t, 2> misses_{};
   bool oldest_planned_ = false;  // by plan_oldest()
   std::vector<Clock> columns_;   // of serve_alone()
   DramStatistics statistics_;

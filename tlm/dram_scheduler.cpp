@@ -29,6 +29,8 @@ void DramScheduler::bind(MemoryQueues& queues) {
   queues_ = &queues;
   if (queues.ports() > kPorts) SC_REPORT_ERROR("/parallax/memory/ports", "a DRAM has at most 256 ports");
   ports_.resize(queues.ports());
+  arrival_dates_.assign(queues.ports(), MemoryQueues::kNever);
+  arrivals_.assign(queues.ports(), DramController::kNever);
   if (queues.ports() > 0) current_ = queues.ports() - 1;  // the first turn is the first port's
 }
 
@@ -47,10 +49,11 @@ void DramScheduler::serve_until(Picoseconds date, bool inclusive, MemoryService&
 
 // Lets bursts in, in all clocks before `limit`.
 void DramScheduler::enter_until(Clock limit, MemoryService& service) {
+  look_at_heads();
   while (!queues_->empty()) {
     // A request under way goes on: what had room then has room now.
-    if (ports_[current_].bursts_left != 0 && next_ < limit &&
-        controller_.room(queues_->head(current_).payload->is_write())) {
+    const Port& port = ports_[current_];
+    if (port.bursts_left != 0 && next_ < limit && controller_.room(port.write)) {
       run_controller(next_ + 1, service);
       enter(current_, service);
       continue;
@@ -70,28 +73,25 @@ void DramScheduler::enter_until(Clock limit, MemoryService& service) {
 
 // Keeps what is known of the first request of a port's queue up to date.
 void DramScheduler::look_at_head(std::size_t id) {
-  Port& port = ports_[id];
-  const Picoseconds arrival = queues_->arrivals()[id];
-  if (port.bursts_left != 0 || port.arrival_date == arrival) return;
-  port.arrival_date = arrival;
-  if (arrival != MemoryQueues::kNever) port.arrival = clock_at_or_after(arrival);
+  const Picoseconds date = queues_->arrivals()[id];
+  if (date == arrival_dates_[id]) return;
+  arrival_dates_[id] = date;
+  arrivals_[id] = date == MemoryQueues::kNever ? DramController::kNever : clock_at_or_after(date);
 }
 
-// Clock in which some burst could enter at the earliest, if there is room; needs one that waits.
-DramScheduler::Clock DramScheduler::next_entry() {
+void DramScheduler::look_at_heads() {
+  for (std::size_t id = 0; id < arrivals_.size(); ++id) look_at_head(id);
+}
+
+// Clock in which some burst could enter at the earliest, if there is room.
+DramScheduler::Clock DramScheduler::next_entry() const {
   Clock first = DramController::kNever;
-  for (std::size_t id = 0; id < ports_.size(); ++id) {
-    if (queues_->empty(id)) continue;
-    look_at_head(id);
-    first = std::min(first, ports_[id].arrival);
-  }
+  for (const Clock arrival : arrivals_) first = std::min(first, arrival);
   return std::max(first, next_);
 }
 
-bool DramScheduler::can_enter(std::size_t id, Clock clock) {
-  if (queues_->empty(id)) return false;
-  look_at_head(id);
-  return ports_[id].arrival <= clock && controller_.room(queues_->head(id).payload->is_write());
+bool DramScheduler::can_enter(std::size_t id, Clock clock) const {
+  return arrivals_[id] <= clock && controller_.room(queues_->head(id).payload->is_write());
 }
 
 // Makes the port current whose burst enters in `clock`; false if none can.
@@ -112,8 +112,8 @@ bool DramScheduler::choose(Clock clock) {
 DramScheduler::Clock DramScheduler::next_change(Clock clock) {
   Clock next = controller_.next_command();
   if (next != DramController::kNever) ++next;
-  for (std::size_t id = 0; id < ports_.size(); ++id) {
-    if (!queues_->empty(id) && ports_[id].arrival > clock) next = std::min(next, ports_[id].arrival);
+  for (const Clock arrival : arrivals_) {
+    if (arrival > clock) next = std::min(next, arrival);
   }
   return std::max(next, clock + 1);
 }
@@ -143,8 +143,8 @@ bool DramScheduler::serve_alone(std::size_t id, Clock limit, MemoryService& serv
     const DramPlace last = address_.place(first + (bursts - 1) * burst_bytes_);
     if (last.bank != place.bank || last.row != place.row) return false;
   }
-  for (std::size_t other = 0; other < ports_.size(); ++other) {
-    if (other != id && !queues_->empty(other)) limit = std::min(limit, ports_[other].arrival + 1);
+  for (std::size_t other = 0; other < arrivals_.size(); ++other) {
+    if (other != id) limit = std::min(limit, arrivals_[other] + (arrivals_[other] < limit ? 1 : 0));
   }
   if (const Picoseconds second = queues_->second_arrival(id); second != MemoryQueues::kNever) {
     limit = std::min(limit, std::max(clock_at_or_after(second), next_ + static_cast<Clock>(bursts)) + 1);
@@ -153,10 +153,11 @@ bool DramScheduler::serve_alone(std::size_t id, Clock limit, MemoryService& serv
   if (!controller_.serve_alone({place, id, write}, bursts, next_, limit, done_)) return false;
   begins_work(next_);
   next_ += static_cast<Clock>(bursts);
-  for (const DramController::Done& done : done_) beats_.push_back({done.data_end, id});
+  for (const DramController::Done& done : done_) add_beats(done.data_end, id);
   work_end_ = done_.back().data_end;
   done_.clear();
   const MemoryRequest request = queues_->pop(id, date_of(next_));
+  look_at_head(id);
   service.served(id, request);
   service.answered(id, request, date_of((write ? next_ : work_end_) + memory_.latency));
   return true;
@@ -165,16 +166,17 @@ bool DramScheduler::serve_alone(std::size_t id, Clock limit, MemoryService& serv
 // The next burst of the port's first request enters in clock next_.
 void DramScheduler::enter(std::size_t id, MemoryService& service) {
   Port& port = ports_[id];
-  const ::tlm::tlm_generic_payload& payload = *queues_->head(id).payload;
-  const bool write = payload.is_write();
   if (port.bursts_left == 0) {
+    const ::tlm::tlm_generic_payload& payload = *queues_->head(id).payload;
     port.bursts_left = bursts_of(payload);
     port.next = payload.get_address() / burst_bytes_ * burst_bytes_;
-    if (!write) {
+    port.write = payload.is_write();
+    if (!port.write) {
       port.reads.push_back({{}, port.bursts_left, 0});
       ++reads_;
     }
   }
+  const bool write = port.write;
   if (controller_.idle()) begins_work(next_);
   const std::uint64_t number = write ? 0 : port.first_read + port.reads.size() - 1;
   controller_.submit({address_.place(port.next), number * kPorts + id, write}, next_);
@@ -182,17 +184,17 @@ void DramScheduler::enter(std::size_t id, MemoryService& service) {
   ++next_;
   if (--port.bursts_left > 0) return;
   const MemoryRequest request = queues_->pop(id, date_of(next_));
+  look_at_head(id);
   if (!write) port.reads[port.reads.size() - 1].request = request;
   service.served(id, request);
   if (write) service.answered(id, request, date_of(next_ + memory_.latency));
 }
 
-void DramScheduler::run_controller(Clock limit, MemoryService& service) {
-  controller_.run_until(limit, done_);
+void DramScheduler::take_done(MemoryService& service) {
   for (const DramController::Done& done : done_) {
     const std::size_t id = done.tag % kPorts;
     Port& port = ports_[id];
-    beats_.push_back({done.data_end, id});
+    add_beats(done.data_end, id);
     work_end_ = std::max(work_end_, done.data_end);
     if (done.write) continue;
     Read& read = port.reads[done.tag / kPorts - port.first_read];
@@ -212,14 +214,15 @@ void DramScheduler::run_controller(Clock limit, MemoryService& service) {
 
 // In which some burst that waits could enter at the earliest; needs one.
 DramScheduler::Clock DramScheduler::entry_bound() {
+  look_at_heads();
+  const Clock first = std::max(next_, decided_);
+  if (controller_.room(false) && controller_.room(true)) return std::max(next_entry(), first);
+  const Clock room = controller_.next_command() + 1;
   Clock bound = DramController::kNever;
-  for (std::size_t id = 0; id < ports_.size(); ++id) {
-    if (queues_->empty(id)) continue;
-    look_at_head(id);
-    Clock clock = std::max({ports_[id].arrival, next_, decided_});
-    if (!controller_.room(queues_->head(id).payload->is_write())) {
-      clock = std::max(clock, controller_.next_command() + 1);
-    }
+  for (std::size_t id = 0; id < arrivals_.size(); ++id) {
+    if (arrivals_[id] == DramController::kNever) continue;
+    Clock clock = std::max(arrivals_[id], first);
+    if (!controller_.room(queues_->head(id).payload->is_write())) clock = std::max(clock, room);
     bound = std::min(bound, clock);
   }
   return bound;
@@ -238,9 +241,18 @@ Picoseconds DramScheduler::next_answer() {
 
 Picoseconds DramScheduler::next_place() { return date_of(entry_bound() + 1); }
 
+void DramScheduler::add_beats(Clock end, std::size_t id) {
+  const Clock begin = end - memory_.timing.burst_clocks();
+  if (!beats_.empty() && beats_.back().end == begin && beats_.back().port == id) {
+    beats_.back().end = end;
+  } else {
+    beats_.push_back({begin, end, id});
+  }
+}
+
 void DramScheduler::count_beats(Clock clock) {
   for (; !beats_.empty() && beats_.front().end <= clock; beats_.pop_front()) {
-    ports_[beats_.front().port].bus += Cycles(memory_.timing.burst_clocks());
+    ports_[beats_.front().port].bus += Cycles(beats_.front().end - beats_.front().begin);
   }
 }
 
@@ -249,8 +261,7 @@ Cycles DramScheduler::bus_taken(std::size_t port, Picoseconds date) {
   count_beats(clock);
   Cycles taken = ports_[port].bus;
   if (!beats_.empty() && beats_.front().port == port) {
-    const Clock begin = beats_.front().end - memory_.timing.burst_clocks();
-    taken += Cycles(std::max<Clock>(0, clock - begin));
+    taken += Cycles(std::max<Clock>(0, clock - beats_.front().begin));
   }
   return taken;
 }

@@ -57,14 +57,14 @@ class DramScheduler final : public MemoryScheduler {
   struct Port {
     std::uint64_t bursts_left = 0;  // of the head of the queue when it is on its way in
     std::uint64_t next = 0;         // address of its next burst
-    Clock arrival = 0;              // of the head
-    Picoseconds arrival_date = MemoryQueues::kNever;
+    bool write = false;             // it is a write
     std::uint64_t first_read = 0;  // number of the oldest in `reads`
     Ring<Read> reads;              // in order
     Cycles bus;                    // that has passed
   };
   static constexpr std::size_t kBeats = 1024;  // kept before they are counted
-  struct Beats {                               // on the data bus, not passed yet
+  struct Beats {                               // on the data bus, not passed yet, without a pause
+    Clock begin;
     Clock end;
     std::size_t port;
   };
@@ -73,16 +73,22 @@ class DramScheduler final : public MemoryScheduler {
   Picoseconds date_of(Clock clock) const { return Picoseconds(clock * period_); }
   void enter_until(Clock limit, MemoryService& service);
   bool choose(Clock clock);
-  bool can_enter(std::size_t port, Clock clock);
+  bool can_enter(std::size_t port, Clock clock) const;
   void enter(std::size_t port, MemoryService& service);
   std::uint64_t bursts_of(const ::tlm::tlm_generic_payload& payload) const;
   bool serve_alone(std::size_t port, Clock limit, MemoryService& service);
   void begins_work(Clock clock);
   void look_at_head(std::size_t port);
+  void look_at_heads();
   Clock next_change(Clock clock);
-  void run_controller(Clock limit, MemoryService& service);
+  void run_controller(Clock limit, MemoryService& service) {
+    controller_.run_until(limit, done_);
+    if (!done_.empty()) take_done(service);
+  }
+  void take_done(MemoryService& service);
+  void add_beats(Clock end, std::size_t port);
   void count_beats(Clock clock);
-  Clock next_entry();
+  Clock next_entry() const;
   Clock entry_bound();
 
   const DramMemory memory_;
@@ -92,6 +98,9 @@ class DramScheduler final : public MemoryScheduler {
   DramController controller_;
   MemoryQueues* queues_ = nullptr;
   std::vector<Port> ports_;
+  // By port, of the first request that waits: its arrival, kNever without one, as date and as clock.
+  std::vector<Picoseconds> arrival_dates_;
+  std::vector<Clock> arrivals_;
   std::size_t current_ = 0;  // whose turn it is, or was
   Clock next_ = 0;           // in which the next burst may enter
   Clock decided_ = 0;        // all clocks before are decided

@@ -79,37 +79,48 @@ void Leap::scan(Member& member) {
     return;
   }
   const std::uint64_t target = member.base + member.done + kScannedAhead;
-  while (member.scanned < target && member.events.size() < kEventsAhead) {
-    if (member.cursor.segment == schedule.segments().size()) {
+  const auto ports = [](unsigned consume, unsigned produce) { return consume | produce << 8U; };
+  const unsigned core = ports(member.core_in, member.core_out);
+  const unsigned common = ports(member.common.consume, member.common.produce);
+  const std::size_t segments = schedule.segments().size();
+  Stage::Position at = member.cursor;
+  std::uint64_t scanned = member.scanned;
+  while (scanned < target && member.events.size() < kEventsAhead) {
+    if (at.segment == segments) {
       member.ended = true;
-      return;
+      break;
     }
-    const Schedule::Segment& segment = schedule.segments()[member.cursor.segment];
-    const Phase& phase = schedule.phases()[segment.first_phase + member.cursor.phase];
-    if (!same_in(phase, member.common, member.core_in, member.core_out)) {
+    const Schedule::Segment& segment = schedule.segments()[at.segment];
+    const Phase& phase = schedule.phases()[segment.first_phase + at.phase];
+    // As same_in(), at once: this is gone through for each word of the map.
+    const unsigned here = ports(phase.consume, phase.produce);
+    const unsigned loose = here & ~core;
+    std::uint32_t count = phase.count - at.count;
+    if (((here ^ common) & core) != 0 || phase.interval != member.common.interval ||
+        (here == 0) != (common == 0)) {
       member.ended = true;
-      return;
+      break;
     }
-    const PortMask consume = without(phase.consume, member.core_in);
-    const PortMask produce = without(phase.produce, member.core_out);
-    std::uint64_t count = phase.count - member.cursor.count;
-    if (consume != 0 || produce != 0) {
-      if (produce != 0 && within(phase.produce, member.core_out) != 0) {
+    if (loose != 0) {
+      if (loose > 0xffU && within(phase.produce, member.core_out) != 0) {
         member.ended = true;  // a firing that writes to both kinds of stream is left to itself
-        return;
+        break;
       }
       count = 1;
-      member.events.push_back({member.scanned, consume, produce, false, member.cursor});
+      member.events.push_back(
+          {scanned, static_cast<PortMask>(loose), static_cast<PortMask>(loose >> 8U), false, at});
     } else if (segment.phase_count == 1) {
-      count += (segment.repeat - member.cursor.pass - 1) * phase.count;
-      member.scanned += count;
-      stage.skip(member.cursor, count);
+      const std::uint64_t rest = count + (segment.repeat - at.pass - 1) * phase.count;
+      scanned += rest;
+      stage.skip(at, rest);
       continue;
     }
-    member.scanned += count;
-    member.cursor.count += static_cast<std::uint32_t>(count);
-    if (member.cursor.count == phase.count) stage.next_phase(member.cursor);
+    scanned += count;
+    at.count += count;
+    if (at.count == phase.count) stage.next_phase(at);
   }
+  member.cursor = at;
+  member.scanned = scanned;
 }
 
 // Firings that keep to the pattern and whose irregular tokens and places are known to be there in time.
@@ -163,13 +174,13 @@ bool Leap::write_pending(Member& member) {
 
 Leap::Check Leap::check(Member& member, Event& event) {
   const Stage& stage = *member.stage;
-  const Cycles free = free_before(member, event.firing);
-  const Cycles written = start_of(member, event.firing) + Cycles(stage.latency_);
-  for (const int l : member.in) {
-    Link& link = links_[static_cast<std::size_t>(l)];
-    if (link.core || !contains(event.consume, link.reader_port)) continue;
-    StreamBase& stream = *link.stream;
-    const std::uint64_t token = stream.statistics_.read + link.claimed_reads;
+  const auto [place, later] = in_period(member, event.firing);
+  const Cycles free = member.observed[place].free + later;
+  const Cycles written = member.observed[place].start + later + Cycles(stage.latency_);
+  for (const Link* link : member.loose_in) {
+    if (!contains(event.consume, link->reader_port)) continue;
+    StreamBase& stream = *link->stream;
+    const std::uint64_t token = stream.statistics_.read + link->claimed_reads;
     if (token >= stream.statistics_.written) {
       stream.wait_for_token();
       return Check::kUnknown;
@@ -180,13 +191,12 @@ Leap::Check Leap::check(Member& member, Event& event) {
   if (event.produce != 0) {
     if (stage.latency_ > 0 && member.last_event_write > free) return Check::kLate;
     pending = stage.entered_ != stage.left_ || member.claimed_pending != 0;
-    for (const int l : member.out) {
-      const Link& link = links_[static_cast<std::size_t>(l)];
-      if (link.core || !contains(event.produce, link.writer_port) || pending) continue;
-      if (!link.stream->write_date_known(link.claimed_writes)) {
+    for (const Link* link : member.loose_out) {
+      if (!contains(event.produce, link->writer_port) || pending) continue;
+      if (!link->stream->write_date_known(link->claimed_writes)) {
         pending = true;
-        link.stream->wait_for_room();
-      } else if (link.stream->writable_at(link.claimed_writes) > (stage.latency_ == 0 ? free : written)) {
+        link->stream->wait_for_room();
+      } else if (link->stream->writable_at(link->claimed_writes) > (stage.latency_ == 0 ? free : written)) {
         return Check::kLate;
       }
     }
@@ -199,13 +209,11 @@ Leap::Check Leap::check(Member& member, Event& event) {
       member.last_event_write = written;
     }
   }
-  for (const int l : member.in) {
-    Link& link = links_[static_cast<std::size_t>(l)];
-    if (!link.core && contains(event.consume, link.reader_port)) ++link.claimed_reads;
+  for (Link* link : member.loose_in) {
+    if (contains(event.consume, link->reader_port)) ++link->claimed_reads;
   }
-  for (const int l : member.out) {
-    Link& link = links_[static_cast<std::size_t>(l)];
-    if (!link.core && !pending && contains(event.produce, link.writer_port)) ++link.claimed_writes;
+  for (Link* link : member.loose_out) {
+    if (!pending && contains(event.produce, link->writer_port)) ++link->claimed_writes;
   }
   event.pending = pending;
   return Check::kInTime;
@@ -261,11 +269,10 @@ void Leap::commit_events(Member& member, std::uint64_t until) {
     member.place = event.place;
     member.place_firing = event.firing;
     const Cycles start = start_of(member, event.firing);
-    for (const int l : member.in) {
-      Link& link = links_[static_cast<std::size_t>(l)];
-      if (link.core || !contains(event.consume, link.reader_port)) continue;
-      --link.claimed_reads;
-      link.stream->mark_read(start, Cycles(0));
+    for (Link* link : member.loose_in) {
+      if (!contains(event.consume, link->reader_port)) continue;
+      --link->claimed_reads;
+      link->stream->mark_read(start, Cycles(0));
     }
     if (event.produce == 0) continue;
     const Cycles written = start + Cycles(stage.latency_);
@@ -278,26 +285,25 @@ void Leap::commit_events(Member& member, std::uint64_t until) {
       continue;
     }
     stage.left_ = stage.entered_;
-    for (const int l : member.out) {
-      Link& link = links_[static_cast<std::size_t>(l)];
-      if (link.core || !contains(event.produce, link.writer_port)) continue;
-      --link.claimed_writes;
-      link.stream->mark_written(written, Cycles(0));
+    for (Link* link : member.loose_out) {
+      if (!contains(event.produce, link->writer_port)) continue;
+      --link->claimed_writes;
+      link->stream->mark_written(written, Cycles(0));
     }
     stage.note_write(stage.frames_.back(), written);
   }
 }
 
 Cycles Leap::start_of(const Member& member, std::uint64_t firing) const {
-  const std::uint64_t since = firing - member.base;
-  return member.observed[since % member.firings].start +
-         Cycles(period_ * as_signed(since / member.firings + 1));
+  const auto [place, later] = in_period(member, firing);
+  return member.observed[place].start + later;
 }
 
-Cycles Leap::free_before(const Member& member, std::uint64_t firing) const {
+// Which firing of the period observed it is like, and how much later it comes.
+std::pair<std::size_t, Cycles> Leap::in_period(const Member& member, std::uint64_t firing) const {
   const std::uint64_t since = firing - member.base;
-  return member.observed[since % member.firings].free +
-         Cycles(period_ * as_signed(since / member.firings + 1));
+  if (member.firings == 1) return {0, Cycles(period_ * as_signed(since + 1))};
+  return {since % member.firings, Cycles(period_ * as_signed(since / member.firings + 1))};
 }
 
 }  // namespace parallax

@@ -83,7 +83,8 @@ class Leap {
   };
   struct Member {
     Stage* stage;
-    std::vector<int> in, out;  // links
+    std::vector<int> in, out;              // links
+    std::vector<Link*> loose_in, loose_out;  // of these, those that are not core
     bool takes_part = false;   // has a core port
     bool active = false;
     std::uint64_t seen_firings = 0;  // at the last look
@@ -131,7 +132,7 @@ class Leap {
   std::uint64_t possible_periods(Link& link, std::uint64_t wanted);
   void commit_events(Member& member, std::uint64_t until);
   Cycles start_of(const Member& member, std::uint64_t firing) const;
-  Cycles free_before(const Member& member, std::uint64_t firing) const;
+  std::pair<std::size_t, Cycles> in_period(const Member& member, std::uint64_t firing) const;
 
   void materialize(Member& member, std::uint64_t periods);
   void materialize(Link& link, std::uint64_t periods);

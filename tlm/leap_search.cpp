@@ -109,8 +109,21 @@ bool Leap::classify() {
       demote(member.out, &Link::writer_port, member.core_out);
     }
   }
-  return std::any_of(members_.begin(), members_.end(),
-                     [](const Member& m) { return m.active && m.takes_part; });
+  bool any = false;
+  for (Member& member : members_) {
+    if (!member.active || !member.takes_part) continue;
+    any = true;
+    const auto loose = [this](const std::vector<int>& links, std::vector<Link*>& found) {
+      found.clear();
+      for (const int l : links) {
+        Link& link = links_[static_cast<std::size_t>(l)];
+        if (!link.core) found.push_back(&link);
+      }
+    };
+    loose(member.in, member.loose_in);
+    loose(member.out, member.loose_out);
+  }
+  return any;
 }
 
 // The firings after which the stage does the same again, in what it does to core ports: one, where they are

@@ -152,6 +152,10 @@ void Leap::release() {
     dataflow_.release(*member.stage);
     member.looks_still = 0;
   }
+  // Who moves from here on is to be seen, and soon.
+  for (Member& member : members_) member.seen_firings = member.stage->statistics_.firings;
+  wide_ = false;
+  dataflow_.look_anew();
 }
 
 sc_core::sc_time Leap::find_due() const {

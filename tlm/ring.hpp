@@ -13,18 +13,19 @@ class Ring {
  public:
   bool empty() const { return size_ == 0; }
   std::size_t size() const { return size_; }
-  /// The oldest element, and the one `i` places after it; they must be there.
+  /// The oldest element, the newest, and the one `i` places after the oldest; they must be there.
   T& front() { return (*this)[0]; }
   const T& front() const { return (*this)[0]; }
-  T& operator[](std::size_t i) { return slots_[(first_ + i) & (slots_.size() - 1)]; }
-  const T& operator[](std::size_t i) const { return slots_[(first_ + i) & (slots_.size() - 1)]; }
+  T& back() { return (*this)[size_ - 1]; }
+  T& operator[](std::size_t i) { return slots_[(first_ + i) & mask_]; }
+  const T& operator[](std::size_t i) const { return slots_[(first_ + i) & mask_]; }
 
   void push_back(const T& value) {
-    if (size_ == slots_.size()) grow();
-    slots_[(first_ + size_++) & (slots_.size() - 1)] = value;
+    if (size_ == capacity_) grow();
+    slots_[(first_ + size_++) & mask_] = value;
   }
   void pop_front() {
-    first_ = (first_ + 1) & (slots_.size() - 1);
+    first_ = (first_ + 1) & mask_;
     --size_;
   }
 
@@ -33,10 +34,14 @@ class Ring {
     std::vector<T> larger(slots_.empty() ? 8 : 2 * slots_.size());
     for (std::size_t i = 0; i < size_; ++i) larger[i] = std::move((*this)[i]);
     slots_ = std::move(larger);
+    capacity_ = slots_.size();
+    mask_ = capacity_ - 1;
     first_ = 0;
   }
 
-  std::vector<T> slots_;  // a power of two
+  std::vector<T> slots_;
+  std::size_t capacity_ = 0;  // of the slots, a power of two
+  std::size_t mask_ = 0;
   std::size_t first_ = 0;
   std::size_t size_ = 0;
 };

@@ -111,32 +111,36 @@ void StreamBase::wake_reader() {
 // offsets 0 a token may free its place in the cycle that writes it; the level is then one too low, but for no
 // time.
 void StreamBase::settle() const {
-  std::uint64_t level = settled_writes_ - freed_;
-  for (;;) {
-    const bool write_known = settled_writes_ < statistics_.written;
-    const bool read_known = freed_ < statistics_.read;
-    if (!write_known && !read_known) return;
-    const Cycles write = write_known ? write_dates_[settled_writes_ & mask_] : last_write_ + Cycles(1);
-    const Cycles room = backward(read_known ? read_dates_[freed_ & mask_] : last_read_ + Cycles(1));
-    const bool frees =
-        room <= write;  // first, where both come in one cycle: a token in its last cycle still counts
-    if (frees ? !read_known : !write_known) return;
-    const Cycles date = frees ? room : write;
+  std::uint64_t writes = settled_writes_;
+  std::uint64_t frees = freed_;
+  const std::uint64_t written = statistics_.written;
+  const std::uint64_t read = statistics_.read;
+  const auto next_write = [&] { return writes < written ? write_dates_[writes & mask_] : last_write_ + Cycles(1); };
+  const auto next_room = [&] { return backward(frees < read ? read_dates_[frees & mask_] : last_read_ + Cycles(1)); };
+  if (writes == written && frees == read) return;
+  Cycles write = next_write();
+  Cycles room = next_room();
+  while (writes < written || frees < read) {
+    const bool leaves = room <= write;  // first, where both come in one cycle: a token in its last cycle still counts
+    if (leaves ? frees == read : writes == written) break;
+    const Cycles date = leaves ? room : write;
     if (date > settled_until_) {
       const auto cycles = static_cast<std::uint64_t>((date - settled_until_).count());
-      occupancy_.add(level, cycles);
-      if (counted_ != nullptr) counted_->emplace_back(level, cycles);
+      occupancy_.add(writes - frees, cycles);
+      if (counted_ != nullptr) counted_->emplace_back(writes - frees, cycles);
       settled_until_ = date;
     }
-    if (frees) {
-      ++freed_;
-      --level;
+    if (leaves) {
+      ++frees;
+      room = next_room();
     } else {
-      ++settled_writes_;
-      ++level;
-      statistics_.high_water = std::max(statistics_.high_water, level);
+      ++writes;
+      statistics_.high_water = std::max(statistics_.high_water, writes - frees);
+      write = next_write();
     }
   }
+  settled_writes_ = writes;
+  freed_ = frees;
 }
 
 FifoFill StreamBase::fill() const {
