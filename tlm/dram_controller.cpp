@@ -191,7 +191,8 @@ void DramController::issue(std::vector<Done>& done) {
     const Burst burst = entry.burst;
     tell(plan.clock, plan.command, burst.place);
     --from.bursts;
-    if (--entry.bursts == 0) from.entries.erase(from.entries.begin() + static_cast<std::ptrdiff_t>(plan.entry));
+    if (--entry.bursts == 0)
+      from.entries.erase(from.entries.begin() + static_cast<std::ptrdiff_t>(plan.entry));
     column(plan.clock, burst, done);
   } else {
     issue_row(plan);

@@ -89,7 +89,8 @@ class DramController {
       return;
     }
     queue.entries.push_back({burst, 1});
-    if (queue.misses >= 0 && banks_[burst.place.bank].open_row != std::int64_t{burst.place.row}) ++queue.misses;
+    if (queue.misses >= 0 && banks_[burst.place.bank].open_row != std::int64_t{burst.place.row})
+      ++queue.misses;
     planned_ = planned_ && direction() == plan_writing_ && (burst.write != plan_writing_ || plan_newest());
   }
   /// Takes `number` bursts of one row that enter one a clock from `clock` on, and issues all that they cause,
@@ -119,7 +120,8 @@ class DramController {
     Burst burst;
     std::size_t bursts;
     bool joins(const Burst& next) const {
-      return burst.tag == next.tag && burst.place.bank == next.place.bank && burst.place.row == next.place.row;
+      return burst.tag == next.tag && burst.place.bank == next.place.bank &&
+             burst.place.row == next.place.row;
     }
   };
   struct Queue {
@@ -149,7 +151,8 @@ class DramController {
   Queue& queue() { return plan_writing_ ? writes_ : reads_; }
   bool direction() const {
     const bool only_writes = reads_.bursts == 0 && writes_.bursts != 0;
-    return only_writes || (writing_ ? writes_.bursts > policy_.low_watermark : writes_.bursts >= policy_.high_watermark);
+    return only_writes ||
+           (writing_ ? writes_.bursts > policy_.low_watermark : writes_.bursts >= policy_.high_watermark);
   }
   Plan plan_queue();
   bool plan_oldest();
@@ -182,7 +185,7 @@ class DramController {
   const DramPolicy policy_;
   Queue reads_;
   Queue writes_;
-  bool writing_ = false;       // whether a batch of writes is under way
+  bool writing_ = false;  // whether a batch of writes is under way
   std::vector<Bank> banks_;
   std::vector<Free> groups_;          // what each bank group allows,
   Free any_;                          // and all of them
@@ -195,13 +198,14 @@ class DramController {
   Clock refresh_free_ = 0;  // after the precharge of all banks
   bool last_was_write_ = false;
   Plan plan_;
-  bool refresh_next_ = false;  // the plan is a refresh or what it takes; its clock is not exact, but not before
+  bool refresh_next_ =
+      false;  // the plan is a refresh or what it takes; its clock is not exact, but not before
   bool plan_writing_ = false;  // from the queue of writes
   Clock changed_ = -1;         // last clock in which a queue changed, or a command was issued
   bool planned_ = false;
   std::vector<std::uint8_t> wanted_;  // per bank: how plan_queue() has seen it
-  bool oldest_planned_ = false;  // by plan_oldest()
-  std::vector<Clock> columns_;   // of serve_alone()
+  bool oldest_planned_ = false;       // by plan_oldest()
+  std::vector<Clock> columns_;        // of serve_alone()
   DramStatistics statistics_;
   DramListener* listener_ = nullptr;
 };

@@ -58,9 +58,9 @@ class DramScheduler final : public MemoryScheduler {
     std::uint64_t bursts_left = 0;  // of the head of the queue when it is on its way in
     std::uint64_t next = 0;         // address of its next burst
     bool write = false;             // it is a write
-    std::uint64_t first_read = 0;  // number of the oldest in `reads`
-    Ring<Read> reads;              // in order
-    Cycles bus;                    // that has passed
+    std::uint64_t first_read = 0;   // number of the oldest in `reads`
+    Ring<Read> reads;               // in order
+    Cycles bus;                     // that has passed
   };
   static constexpr std::size_t kBeats = 1024;  // kept before they are counted
   struct Beats {                               // on the data bus, not passed yet, without a pause

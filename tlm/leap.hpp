@@ -83,9 +83,9 @@ class Leap {
   };
   struct Member {
     Stage* stage;
-    std::vector<int> in, out;              // links
+    std::vector<int> in, out;                // links
     std::vector<Link*> loose_in, loose_out;  // of these, those that are not core
-    bool takes_part = false;   // has a core port
+    bool takes_part = false;                 // has a core port
     bool active = false;
     std::uint64_t seen_firings = 0;  // at the last look
     int looks_still = 0;             // looks in a row since it moved

@@ -115,13 +115,18 @@ void StreamBase::settle() const {
   std::uint64_t frees = freed_;
   const std::uint64_t written = statistics_.written;
   const std::uint64_t read = statistics_.read;
-  const auto next_write = [&] { return writes < written ? write_dates_[writes & mask_] : last_write_ + Cycles(1); };
-  const auto next_room = [&] { return backward(frees < read ? read_dates_[frees & mask_] : last_read_ + Cycles(1)); };
+  const auto next_write = [&] {
+    return writes < written ? write_dates_[writes & mask_] : last_write_ + Cycles(1);
+  };
+  const auto next_room = [&] {
+    return backward(frees < read ? read_dates_[frees & mask_] : last_read_ + Cycles(1));
+  };
   if (writes == written && frees == read) return;
   Cycles write = next_write();
   Cycles room = next_room();
   while (writes < written || frees < read) {
-    const bool leaves = room <= write;  // first, where both come in one cycle: a token in its last cycle still counts
+    const bool leaves =
+        room <= write;  // first, where both come in one cycle: a token in its last cycle still counts
     if (leaves ? frees == read : writes == written) break;
     const Cycles date = leaves ? room : write;
     if (date > settled_until_) {
@@ -145,7 +150,7 @@ void StreamBase::settle() const {
 
 FifoFill StreamBase::fill() const {
   settle();
-  FifoFill fill{settled_until_,       settled_writes_,    freed_, occupancy_.level_cycles(),
+  FifoFill fill{settled_until_,    settled_writes_,   freed_, occupancy_.level_cycles(),
                 occupancy_.full(), occupancy_.empty()};
   if (ahead_.periods_gone == nullptr) return fill;
   const std::uint64_t periods = *ahead_.periods_gone - *ahead_.periods_added;

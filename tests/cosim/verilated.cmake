@@ -11,19 +11,23 @@ else()
   set(PARALLAX_RTL ON)
 endif()
 
-# parallax_verilated(LIBRARY CLASS TOP [OPTIMISE -O1] [PARAMETER=VALUE...]): adds module TOP of tests/rtl/TOP.sv to the
+# parallax_verilated(LIBRARY CLASS TOP [TRACE] [OPTIMISE -O1] [PARAMETER=VALUE...]): adds module TOP of tests/rtl/TOP.sv to the
 # static library LIBRARY, as class CLASS in header CLASS.h, compiled with -O2 or as told.
 function(parallax_verilated library class top)
   set(folder ${PROJECT_SOURCE_DIR}/tests/rtl)
-  cmake_parse_arguments(PARSE_ARGV 3 "" "" "OPTIMISE" "")
+  cmake_parse_arguments(PARSE_ARGV 3 "" "TRACE" "OPTIMISE" "")
   if(NOT _OPTIMISE)
     set(_OPTIMISE -O2)
+  endif()
+  set(trace)
+  if(_TRACE)
+    set(trace TRACE)  # it can dump its waves
   endif()
   list(TRANSFORM _UNPARSED_ARGUMENTS PREPEND -G)
   if(NOT TARGET ${library})
     add_library(${library} STATIC EXCLUDE_FROM_ALL)
   endif()
-  verilate(${library} SOURCES ${folder}/${top}.sv TOP_MODULE ${top} PREFIX ${class} INCLUDE_DIRS ${folder}
+  verilate(${library} SOURCES ${folder}/${top}.sv TOP_MODULE ${top} PREFIX ${class} INCLUDE_DIRS ${folder} ${trace}
     VERILATOR_ARGS -Wall --no-timing --x-assign fast --x-initial fast ${_UNPARSED_ARGUMENTS}
     OPT_SLOW -O0 OPT_FAST ${_OPTIMISE} OPT_GLOBAL -O1)
   # The generated code takes none of our warnings: it gets none of our options, and its headers are system headers.
