@@ -1,33 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "traces/csv_trace.hpp"
 
+#include <fmt/format.h>
+
 #include "traces/trace_columns.hpp"
 
 namespace parallax {
 namespace {
 
-// The columns' names.
-class Heading {
- public:
-  explicit Heading(TextBuffer& out) : out_(out) {}
-  void text(std::string_view name, std::string_view) { put(name); }
-  void number(std::string_view name, std::int64_t) { put(name); }
-  void flag(std::string_view name, bool) { put(name); }
-
- private:
-  void put(std::string_view name) {
-    if (!first_) out_.add(',');
-    first_ = false;
-    out_.add(name);
-  }
-  TextBuffer& out_;
-  bool first_ = true;
-};
-
 // One line. No name of a part has a comma or a quote.
 class Line {
  public:
-  explicit Line(TextBuffer& out) : out_(out), at_(out.room(kMost)) {}
+  Line(TextBuffer& out, DateText& dates) : out_(out), dates_(dates), at_(out.room(kMost)) {}
   ~Line() {
     at_[-1] = '\n';  // in the place of the last comma
     out_.added_until(at_);
@@ -37,12 +21,14 @@ class Line {
 
   void text(std::string_view, std::string_view value) { at_ = put(put(at_, value), ","); }
   void number(std::string_view, std::int64_t value) { at_ = put(put(at_, value), ","); }
+  void date(std::string_view, Picoseconds value) { at_ = put(dates_.put(at_, value), ","); }
   void flag(std::string_view, bool value) { at_ = put(at_, value ? "1," : "0,"); }
 
  private:
   static constexpr std::size_t kMost = 2048;
 
   TextBuffer& out_;
+  DateText& dates_;
   char* at_;
 };
 
@@ -51,9 +37,7 @@ class Line {
 template <class Event>
 void CsvTrace::open_table() {
   TextBuffer& out = table<Event>().emplace(open_(std::string(trace_columns::table_of(Event{}))));
-  Heading heading(out);
-  trace_columns::put(heading, {}, Event{});  // names do not depend on values
-  out.add('\n');
+  out.add(fmt::format("{}\n", fmt::join(trace_columns::names<Event>(), ",")));
 }
 
 void CsvTrace::begin(const TraceParts& parts) {
@@ -70,7 +54,7 @@ void CsvTrace::begin(const TraceParts& parts) {
 
 template <class Event>
 void CsvTrace::put(const Event& event) {
-  Line line(*table<Event>());
+  Line line(*table<Event>(), dates_);
   trace_columns::put(line, parts_, event);
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <tuple>
 
+#include "traces/date_text.hpp"
 #include "traces/text_buffer.hpp"
 #include "traces/trace_sink.hpp"
 
@@ -44,6 +45,7 @@ class CsvTrace final : public TraceSink {
 
   std::function<ByteSink(const std::string&)> open_;
   TraceParts parts_;
+  DateText dates_;
   std::tuple<Table<StageRow>, Table<FifoSpan>, Table<PortRow>, Table<FrameRecord>, Table<StageFiring>,
              Table<TokenTransfer>, Table<BurstTransfer>>
       tables_;

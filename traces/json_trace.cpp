@@ -2,43 +2,34 @@
 #include "traces/json_trace.hpp"
 
 #include <nlohmann/json.hpp>
+#include <type_traits>
 
 #include "traces/trace_columns.hpp"
 
 namespace parallax {
 namespace {
 
-// One event; no name of a part needs to be escaped.
-class Object {
+// One event: its table, then what is in the columns. No name of a part needs to be escaped.
+class Line {
  public:
-  Object(TextBuffer& out, bool first, std::string_view table) : out_(out), at_(out.room(kMost)) {
-    at_ = put(at_, first ? "\n{\"table\":\"" : ",\n{\"table\":\"");
-    at_ = put(put(at_, table), "\"");
+  Line(TextBuffer& out, DateText& dates, bool first, std::string_view table)
+      : out_(out), dates_(dates), at_(out.room(kMost)) {
+    at_ = put(put(put(at_, first ? "\n[\"" : ",\n[\""), table), "\"");
   }
-  ~Object() { out_.added_until(put(at_, "}")); }
-  Object(const Object&) = delete;
-  Object& operator=(const Object&) = delete;
+  ~Line() { out_.added_until(put(at_, "]")); }
+  Line(const Line&) = delete;
+  Line& operator=(const Line&) = delete;
 
-  [[gnu::always_inline]] void text(std::string_view name, std::string_view value) {
-    begin(name);
-    at_ = put(put(put(at_, "\""), value), "\"");
-  }
-  [[gnu::always_inline]] void number(std::string_view name, std::int64_t value) {
-    begin(name);
-    at_ = put(at_, value);
-  }
-  [[gnu::always_inline]] void flag(std::string_view name, bool value) {
-    begin(name);
-    at_ = value ? put(at_, "true") : put(at_, "false");
-  }
+  void text(std::string_view, std::string_view value) { at_ = put(put(put(at_, ",\""), value), "\""); }
+  void number(std::string_view, std::int64_t value) { at_ = put(put(at_, ","), value); }
+  void date(std::string_view, Picoseconds value) { at_ = dates_.put(put(at_, ","), value); }
+  void flag(std::string_view, bool value) { at_ = put(at_, value ? ",true" : ",false"); }
 
  private:
   static constexpr std::size_t kMost = 2048;
 
-  // Of constant length where this is inlined.
-  [[gnu::always_inline]] void begin(std::string_view name) { at_ = put(put(put(at_, ",\""), name), "\":"); }
-
   TextBuffer& out_;
+  DateText& dates_;
   char* at_;
 };
 
@@ -61,9 +52,21 @@ void JsonTrace::begin(const TraceParts& parts) {
   auto ports = nlohmann::ordered_json::array();
   for (const TraceParts::PortPart& port : parts.ports)
     ports.push_back({{"name", port.name}, {"path", port.path}});
+  nlohmann::ordered_json columns;
+  const auto add_columns = [&columns](const auto& event) {
+    columns[std::string(trace_columns::table_of(event))] =
+        trace_columns::names<std::decay_t<decltype(event)>>();
+  };
+  add_columns(StageRow{});
+  add_columns(FifoSpan{});
+  add_columns(PortRow{});
+  add_columns(FrameRecord{});
+  add_columns(StageFiring{});
+  add_columns(TokenTransfer{});
+  add_columns(BurstTransfer{});
   const nlohmann::ordered_json head{{"time_unit", "ps"},    {"frames", parts.frames}, {"rows", parts.rows},
                                     {"tiles", parts.tiles}, {"stages", stages},       {"streams", streams},
-                                    {"ports", ports}};
+                                    {"ports", ports},       {"columns", columns}};
   std::string text = head.dump(1);
   text.erase(text.rfind('\n'));
   out_.add(text);
@@ -72,9 +75,9 @@ void JsonTrace::begin(const TraceParts& parts) {
 
 template <class Event>
 void JsonTrace::put(const Event& event) {
-  Object object(out_, first_, trace_columns::table_of(event));
+  Line line(out_, dates_, first_, trace_columns::table_of(event));
   first_ = false;
-  trace_columns::put(object, parts_, event);
+  trace_columns::put(line, parts_, event);
 }
 
 void JsonTrace::row(const StageRow& row) { put(row); }

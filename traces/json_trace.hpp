@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "traces/date_text.hpp"
 #include "traces/text_buffer.hpp"
 #include "traces/trace_sink.hpp"
 
 namespace parallax {
 
-/// Writes a trace as one JSON object: the parts, then "events", one a line, each with its "table" and the
-/// columns of CsvTrace; "waits" for a machine that is stuck.
+/// Writes a trace as one JSON object: the parts, the columns of each table, which are those of CsvTrace, then
+/// "events", one a line: the table, and what is in its columns. "waits" are those of a machine that is stuck.
 class JsonTrace final : public TraceSink {
  public:
   explicit JsonTrace(ByteSink sink) : out_(std::move(sink)) {}
@@ -28,6 +29,7 @@ class JsonTrace final : public TraceSink {
 
   TextBuffer out_;
   TraceParts parts_;
+  DateText dates_;
   bool first_ = true;
 };
 

@@ -46,38 +46,39 @@ void PortTrace::requested(const BusMaster&, const sc_core::sc_time& time) {
 }
 
 void PortTrace::transferred(const BusMaster&, const BusTransfer& transfer) {
-  BurstTransfer burst;
-  burst.port = id_;
-  burst.place = cursor_.place();
-  burst.write = transfer.write;
-  burst.address = transfer.address;
-  burst.bytes = transfer.bytes;
-  burst.requested = date(transfer.requested);
-  burst.answered = date(transfer.answered);
+  const Picoseconds requested = date(transfer.requested);
+  const Picoseconds answered = date(transfer.answered);
   if (wants_bursts_) {
-    if (window_.contains(burst.place, burst.requested, burst.answered)) bursts_.push(burst);
-    requests_.add(burst.answered, -1, window_.contains(burst.place, burst.answered, burst.answered));
+    const BurstTransfer burst{id_,       cursor_.place(), transfer.write, transfer.address, transfer.bytes,
+                              requested, answered};
+    if (window_.contains(burst.place, requested, answered)) bursts_.push(burst);
+    requests_.add(answered, -1, window_.contains(burst.place, answered, answered));
   }
   // A burst counts for the row in which it begins; its bytes for the rows that they belong to.
-  if (row_.bursts == 0) row_.begin = std::max(row_.begin, burst.requested);
+  if (row_.bursts == 0) row_.begin = std::max(row_.begin, requested);
   ++row_.bursts;
-  row_.latency += burst.answered - burst.requested;
-  row_.longest_latency = std::max(row_.longest_latency, burst.answered - burst.requested);
-  row_.end = std::max(row_.end, burst.answered);
-  for (std::uint64_t left = burst.bytes; left > 0;) {
-    const std::uint64_t bytes = std::min(left, cursor_.left_in_row());
+  row_.latency += answered - requested;
+  row_.longest_latency = std::max(row_.longest_latency, answered - requested);
+  row_.end = std::max(row_.end, answered);
+  std::uint64_t left = transfer.bytes;
+  for (; left >= cursor_.left_in_row(); next_row()) {
+    const std::uint64_t bytes = cursor_.left_in_row();
     row_.bytes += bytes;
     left -= bytes;
-    const bool ends = bytes == cursor_.left_in_row();
     cursor_.advance(bytes);
-    if (!ends) break;
-    if (window_.contains(row_.place, row_.begin, row_.end)) rows_.push(row_);
-    const Picoseconds end = row_.end;
-    row_ = {};
-    row_.port = id_;
-    row_.place = cursor_.place();
-    row_.begin = row_.end = end;
   }
+  row_.bytes += left;
+  cursor_.advance(left);
+}
+
+// The row is complete.
+void PortTrace::next_row() {
+  if (window_.contains(row_.place, row_.begin, row_.end)) rows_.push(row_);
+  const Picoseconds end = row_.end;
+  row_ = {};
+  row_.port = id_;
+  row_.place = cursor_.place();
+  row_.begin = row_.end = end;
 }
 
 void PortTrace::finish() {

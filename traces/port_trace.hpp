@@ -47,6 +47,7 @@ class PortTrace final : public BusListener {
 
   void requested(const BusMaster& master, const sc_core::sc_time& time) override;
   void transferred(const BusMaster& master, const BusTransfer& transfer) override;
+  void next_row();
 
   const PartId id_;
   const TraceWindow& window_;

@@ -14,6 +14,18 @@ RowEnds equal_rows(std::uint64_t units_of_a_row, std::int32_t rows, std::int32_t
   return ends;
 }
 
+std::uint64_t RowEnds::first_of(std::int64_t number, std::int32_t row) const {
+  const std::uint64_t frames = frame() * static_cast<std::uint64_t>(number);
+  const auto before = static_cast<std::size_t>(std::min(row, rows_of_a_tile));
+  return before == 0 || ends.empty() ? frames : frames + ends[std::min(before, ends.size()) - 1];
+}
+
+std::uint64_t RowEnds::end_of(std::int64_t number, std::int32_t row) const {
+  const std::uint64_t frames = frame() * static_cast<std::uint64_t>(number);
+  const auto after = static_cast<std::size_t>(std::max(0, rows_of_a_tile - 1 - row));
+  return after >= ends.size() ? frames : frames + ends[ends.size() - 1 - after];
+}
+
 void RowCursor::leave_row() {
   const std::vector<std::uint64_t>& ends = ends_->ends;
   // As a rule it is in the next row, or in the one after that.

@@ -16,6 +16,10 @@ struct RowEnds {
   std::int32_t rows_of_a_tile = 1;
 
   std::uint64_t frame() const { return ends.empty() ? 0 : ends.back(); }
+  /// Units before row `row` of frame `frame` (both from 0), in the first tile.
+  std::uint64_t first_of(std::int64_t frame, std::int32_t row) const;
+  /// Units until the end of that row in the last tile, or of its last row if it has no such row.
+  std::uint64_t end_of(std::int64_t frame, std::int32_t row) const;
 };
 
 /// Rows of equal length.

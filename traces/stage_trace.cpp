@@ -44,6 +44,13 @@ PartId StageTrace::id_of(const StreamBase* stream) {
 
 void StageTrace::repeated(const Stage&, const std::vector<FiringDates>& period, Cycles later, Cycles every,
                           std::uint64_t times) {
+  if (in_row_ && !wants_firings_ && times * period.size() < until_next_row()) {
+    add_periods(period, times);
+    firing_ += times * period.size();
+    free_ = period.back().start + Cycles(period.back().interval) + later +
+            every * static_cast<std::int64_t>(times - 1);
+    return;
+  }
   while (times > 0) {
     // Whole periods before the firing with which the next row begins.
     const std::uint64_t left = until_next_row();
@@ -55,7 +62,7 @@ void StageTrace::repeated(const Stage&, const std::vector<FiringDates>& period, 
                                            date(period.back().start + until));
     const std::uint64_t whole = one_by_one ? 0 : periods;
     if (whole > 0) {
-      add_periods(period, static_cast<std::int64_t>(whole));
+      add_periods(period, whole);
       firing_ += whole * period.size();
       later += every * static_cast<std::int64_t>(whole);
       free_ = period.back().start + Cycles(period.back().interval) + later - every;
@@ -76,6 +83,7 @@ void StageTrace::repeated(const Stage&, const std::vector<FiringDates>& period, 
 
 // `in_row_` is false before the first firing of a row.
 void StageTrace::note(const FiringDates& firing) {
+  count_periods();
   add_waits(firing, current_.time, waits_);
   if (!in_row_) {
     if (pass_ > 0 || firing_ > 0) end_row(firing);
@@ -127,8 +135,10 @@ void StageTrace::add_waits(const FiringDates& firing, StageStatistics& time, std
   add(firing.room_wait, firing.room, firing.start - firing.ready);
 }
 
-void StageTrace::add_periods(const std::vector<FiringDates>& period, std::int64_t times) {
+// Periods come a few at a time, and as a rule the same ones: they are counted together.
+void StageTrace::add_periods(const std::vector<FiringDates>& period, std::uint64_t times) {
   if (period_.first != period.data() || period_.begin != period.front().start) {
+    count_periods();
     period_ = {period.data(), period.front().start, {}, {}};
     for (const FiringDates& firing : period) {
       add_waits(firing, period_.time, period_.waits);
@@ -136,6 +146,12 @@ void StageTrace::add_periods(const std::vector<FiringDates>& period, std::int64_
       ++period_.time.firings;
     }
   }
+  period_.times += static_cast<std::int64_t>(times);
+}
+
+void StageTrace::count_periods() {
+  const std::int64_t times = std::exchange(period_.times, 0);
+  if (times == 0) return;
   current_.time.add(period_.time, times);
   for (const Wait& wait : period_.waits) add_wait({wait.activity, wait.stream, wait.cycles * times}, waits_);
 }
@@ -187,6 +203,7 @@ void StageTrace::end_row(const FiringDates& next) {
 
 void StageTrace::finish() {
   if (pass_ == 0 && firing_ == 0) return;
+  count_periods();
   FiringDates none;
   none.free = none.ready = none.start = free_;
   end_row(none);

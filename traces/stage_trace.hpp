@@ -48,13 +48,15 @@ class StageTrace final : public StageListener {
     Cycles begin;
     StageStatistics time;
     std::vector<Wait> waits;
+    std::int64_t times = 0;  // that the row does not count yet
   };
 
   void note(const FiringDates& firing);
   void note_firing(const FiringDates& firing);
   static void add_wait(const Wait& wait, std::vector<Wait>& waits);
   static void add_waits(const FiringDates& firing, StageStatistics& time, std::vector<Wait>& waits);
-  void add_periods(const std::vector<FiringDates>& period, std::int64_t times);
+  void add_periods(const std::vector<FiringDates>& period, std::uint64_t times);
+  void count_periods();
   void begin_row(Cycles start);
   void end_row(const FiringDates& next);
   std::uint64_t until_next_row() const { return row_end_ - firing_; }

@@ -9,20 +9,18 @@ TokenTrace::Side::Side(const ClockDomain& clock, const std::shared_ptr<const Row
                        const TraceWindow& window, std::uint32_t depth)
     : clock_(clock) {
   if (rows) rows_.emplace(rows);
-  // While the one side is at a frame of the window, the other is at most as many tokens away as the FIFO
-  // holds.
-  const std::uint64_t frame = rows ? rows->frame() : 0;
-  const auto frames_away = static_cast<std::int64_t>(rows ? 1 + depth / frame : 0);
+  // While the one side is in the window, the other is at most as many tokens away as the FIFO holds.
   if (window.from && window.from->time) {
     first_cycle_ = clock.cycle_at_or_after(*window.from->time) - Cycles(1);
   } else if (window.from && rows) {
-    first_token_ =
-        frame * static_cast<std::uint64_t>(std::max<std::int64_t>(0, window.from->frame - frames_away));
+    const std::uint64_t first = rows->first_of(window.from->frame, window.from->row.value_or(0));
+    first_token_ = first - std::min<std::uint64_t>(first, depth);
   }
   if (window.to && window.to->time) {
     end_cycle_ = clock.cycle_at_or_after(*window.to->time);
   } else if (window.to && rows) {
-    end_token_ = frame * static_cast<std::uint64_t>(window.to->frame + 1 + frames_away);
+    end_token_ =
+        rows->end_of(window.to->frame, window.to->row.value_or(rows->rows_of_a_tile - 1)) + depth + 1;
   }
   if (!rows && ((window.from && !window.from->time) || (window.to && !window.to->time))) end_token_ = 0;
 }

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// What CSV and JSON say of each event: one description for both. A `Row` has text(), number() and flag(),
-// each with the column's name, which holds the unit. Dates are in ps, waits in cycles; frames count from 1,
-// tiles and rows from 0.
+// What CSV and JSON say of each event: one description for both. A `Row` has text(), number(), date() and
+// flag(), each with the column's name, which holds the unit. Dates are in ps, waits in cycles; frames count
+// from 1, tiles and rows from 0.
 #pragma once
 
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -31,10 +32,10 @@ void put(Row& row, const TraceParts& parts, const StageRow& event) {
   put_place(row, event.place);
   row.flag("draining", event.draining);
   row.number("row_written", event.row_written);
-  row.number("begin_ps", event.begin.count());
-  row.number("busy_until_ps", event.busy_until.count());
-  row.number("inputs_until_ps", event.inputs_until.count());
-  row.number("end_ps", event.end.count());
+  row.date("begin_ps", event.begin);
+  row.date("busy_until_ps", event.busy_until);
+  row.date("inputs_until_ps", event.inputs_until);
+  row.date("end_ps", event.end);
   row.number("firings", static_cast<std::int64_t>(event.time.firings));
   row.number("busy", event.time.busy.count());
   row.number("starved", event.time.starved.count());
@@ -50,8 +51,8 @@ constexpr std::string_view table_of(const FifoSpan&) { return "fifos"; }
 template <class Row>
 void put(Row& row, const TraceParts& parts, const FifoSpan& event) {
   row.text("stream", name_of(parts.streams, event.stream));
-  row.number("begin_ps", event.begin.count());
-  row.number("end_ps", event.end.count());
+  row.date("begin_ps", event.begin);
+  row.date("end_ps", event.end);
   row.number("cycles", static_cast<std::int64_t>(event.cycles));
   row.number("token_cycles", static_cast<std::int64_t>(event.token_cycles));
   row.number("full_cycles", static_cast<std::int64_t>(event.full_cycles));
@@ -66,8 +67,8 @@ template <class Row>
 void put(Row& row, const TraceParts& parts, const PortRow& event) {
   row.text("port", name_of(parts.ports, event.port));
   put_place(row, event.place);
-  row.number("begin_ps", event.begin.count());
-  row.number("end_ps", event.end.count());
+  row.date("begin_ps", event.begin);
+  row.date("end_ps", event.end);
   row.number("bytes", static_cast<std::int64_t>(event.bytes));
   row.number("bursts", static_cast<std::int64_t>(event.bursts));
   row.number("latency_sum_ps", event.latency.count());
@@ -77,16 +78,16 @@ void put(Row& row, const TraceParts& parts, const PortRow& event) {
 constexpr std::string_view table_of(const FrameRecord&) { return "frames"; }
 template <class Row>
 void put(Row& row, const TraceParts&, const FrameRecord& event) {
-  const auto at = [&event](FrameStep step) { return event.at[static_cast<std::size_t>(step)].count(); };
+  const auto at = [&event](FrameStep step) { return event.at[static_cast<std::size_t>(step)]; };
   row.number("frame", event.frame + 1);
-  row.number("exposed_ps", at(FrameStep::kExposed));
-  row.number("first_byte_ps", at(FrameStep::kFirstByte));
-  row.number("in_memory_ps", at(FrameStep::kInMemory));
-  row.number("core_started_ps", at(FrameStep::kCoreStarted));
-  row.number("first_disparity_ps", at(FrameStep::kFirstDisparity));
-  row.number("last_disparity_ps", at(FrameStep::kLastDisparity));
-  row.number("results_in_memory_ps", at(FrameStep::kResultsInMemory));
-  row.number("at_host_ps", at(FrameStep::kAtHost));
+  row.date("exposed_ps", at(FrameStep::kExposed));
+  row.date("first_byte_ps", at(FrameStep::kFirstByte));
+  row.date("in_memory_ps", at(FrameStep::kInMemory));
+  row.date("core_started_ps", at(FrameStep::kCoreStarted));
+  row.date("first_disparity_ps", at(FrameStep::kFirstDisparity));
+  row.date("last_disparity_ps", at(FrameStep::kLastDisparity));
+  row.date("results_in_memory_ps", at(FrameStep::kResultsInMemory));
+  row.date("at_host_ps", at(FrameStep::kAtHost));
 }
 
 constexpr std::string_view table_of(const StageFiring&) { return "firings"; }
@@ -94,10 +95,10 @@ template <class Row>
 void put(Row& row, const TraceParts& parts, const StageFiring& event) {
   row.text("stage", name_of(parts.stages, event.stage));
   put_place(row, event.place);
-  row.number("free_ps", event.free.count());
-  row.number("ready_ps", event.ready.count());
-  row.number("start_ps", event.start.count());
-  row.number("end_ps", event.end.count());
+  row.date("free_ps", event.free);
+  row.date("ready_ps", event.ready);
+  row.date("start_ps", event.start);
+  row.date("end_ps", event.end);
   row.text("work", parallax::name_of(event.work));
   const bool starved = event.ready > event.free;
   row.text("input_wait", starved ? parallax::name_of(event.input_wait) : "");
@@ -113,8 +114,8 @@ void put(Row& row, const TraceParts& parts, const TokenTransfer& event) {
   row.text("stream", name_of(parts.streams, event.stream));
   row.text("side", event.read ? "read" : "write");
   put_place(row, event.place);
-  row.number("begin_ps", event.begin.count());
-  row.number("end_ps", event.end.count());
+  row.date("begin_ps", event.begin);
+  row.date("end_ps", event.end);
   row.number("level", static_cast<std::int64_t>(event.level));
 }
 
@@ -126,8 +127,22 @@ void put(Row& row, const TraceParts& parts, const BurstTransfer& event) {
   row.text("command", event.write ? "write" : "read");
   row.number("address", static_cast<std::int64_t>(event.address));
   row.number("bytes", static_cast<std::int64_t>(event.bytes));
-  row.number("requested_ps", event.requested.count());
-  row.number("answered_ps", event.answered.count());
+  row.date("requested_ps", event.requested);
+  row.date("answered_ps", event.answered);
+}
+
+/// The columns of a kind of event, in order.
+template <class Event>
+std::vector<std::string> names() {
+  struct Names {
+    std::vector<std::string> all;
+    void text(std::string_view name, std::string_view) { all.emplace_back(name); }
+    void number(std::string_view name, std::int64_t) { all.emplace_back(name); }
+    void date(std::string_view name, Picoseconds) { all.emplace_back(name); }
+    void flag(std::string_view name, bool) { all.emplace_back(name); }
+  } names;
+  put(names, {}, Event{});  // names do not depend on values
+  return names.all;
 }
 
 }  // namespace parallax::trace_columns

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <sstream>
+#include <utility>
 
 #include "platform/config/nearest_name.hpp"
 #include "platform/machine_rows.hpp"
@@ -101,7 +102,9 @@ Tracing::Tracing(const TraceChoice& choice, const Machine& machine, Pace& pace, 
                 [this] { add_parts(); }) {
   for (const std::string& format : choice.formats) {
     // A fault ends the simulation, and is thrown by finish(): the kernel would lose its line.
-    sinks_.push_back(std::make_unique<SinkThread>(make_sink(format, folder), [] { sc_core::sc_stop(); }));
+    sinks_.push_back(std::make_unique<SinkThread>(make_sink(format, folder), [this] {
+      if (!std::exchange(stopping_, true)) sc_core::sc_stop();
+    }));
     recorder_.add(*sinks_.back());
   }
 }

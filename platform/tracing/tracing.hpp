@@ -50,6 +50,7 @@ class Tracing {
   const std::vector<std::string> wanted_;  // parts; none: all
   const TraceWindow window_;
   std::vector<std::unique_ptr<SinkThread>> sinks_;
+  bool stopping_ = false;  // a sink has failed
   Recorder recorder_;
 };
 

@@ -27,6 +27,10 @@ class Database {
   std::vector<std::string> query(const std::string& sql) const {
     return lines(output_of("sqlite3 " + file_ + " \"" + sql + "\""));
   }
+  /// Of a table, in order.
+  std::vector<std::string> columns(const std::string& table) const {
+    return query("select name from pragma_table_info('" + table + "')");
+  }
   std::string value(const std::string& sql) const {
     const std::vector<std::string> rows = query(sql);
     return rows.size() == 1 ? rows[0] : std::to_string(rows.size()) + " rows";

@@ -41,15 +41,20 @@ TEST_F(TraceFormats, JsonHasTheColumnsOfCsv) {
   EXPECT_TRUE(json.at("waits").empty());
   std::map<std::string, std::vector<std::string>> tables;
   for (const auto& event : json.at("events")) {
+    const std::string table = event.at(0);
+    ASSERT_EQ(event.size(), json.at("columns").at(table).size() + 1) << event;
     std::string line;
-    for (const auto& [name, value] : event.items()) {
-      if (name == "table") continue;
-      if (!line.empty() || name != event.items().begin().key()) line += line.empty() ? "" : "|";
+    for (std::size_t i = 1; i < event.size(); ++i) {
+      const auto& value = event[i];
+      line += i == 1 ? "" : "|";
       line += value.is_string()    ? value.get<std::string>()
               : value.is_boolean() ? (value.get<bool>() ? "1" : "0")
                                    : value.dump();
     }
-    tables[event.at("table")].push_back(line);
+    tables[table].push_back(line);
+  }
+  for (const auto& [table, columns] : json.at("columns").items()) {
+    EXPECT_EQ(columns, csv.columns(table)) << table;
   }
   for (const char* table : {"rows", "ports", "firings", "tokens", "bursts"}) {
     EXPECT_FALSE(tables[table].empty()) << table;
