@@ -18,7 +18,7 @@ FifoTrace::FifoTrace(const StreamBase& stream, PartId id, const std::shared_ptr<
       window_(window),
       spans_([](const FifoSpan& span) { return span.end; },
              [](const FifoSpan& span, TraceSink& sink) { sink.fifo(span); }) {
-  if (!rows) return;
+  if (!rows || !window.bounded()) return;  // where it is does not matter
   writes_.emplace(rows);
   reads_.emplace(rows);
 }
@@ -39,7 +39,7 @@ void FifoTrace::sample() {
   span.freed = fill.freed - last_.freed;
   span.level = fill.level();
   // In the window is what one of its sides does in it.
-  const bool inside = window_.contains(place(writes_), span.begin, span.end) ||
+  const bool inside = !window_.bounded() || window_.contains(place(writes_), span.begin, span.end) ||
                       window_.contains(place(reads_), span.begin, span.end);
   if (writes_) writes_->advance(span.written);
   if (reads_) reads_->advance(span.freed);

@@ -70,7 +70,7 @@ class SinkThread final : public TraceSink {
     std::size_t size = 0;
   };
 
-  static constexpr std::size_t kBatch = 1 << 17;  // bytes
+  static constexpr std::size_t kBatch = 1 << 18;  // bytes
   static constexpr std::size_t kMostBatches = 4;  // that wait for the sink
 
   template <class Event>
