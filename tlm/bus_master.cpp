@@ -47,10 +47,12 @@ void BusMaster::send(::tlm::tlm_generic_payload& payload, const sc_core::sc_time
     return ::tlm::TLM_ACCEPTED;
   }
   if (phase != ::tlm::BEGIN_RESP) return ::tlm::TLM_ACCEPTED;  // a phase that may be ignored
-  const sc_core::sc_time date = std::max(find(payload)->time, now + delay);
+  const auto request = find(payload);
+  const sc_core::sc_time date = std::max(request->time, now + delay);
   delay = date - now;
+  const bool ends = requesting_ == &payload;
   request_ends(payload, date);
-  answered(payload, date);
+  answered(ends ? find(payload) : request, date);  // the client may have sent another one
   phase = ::tlm::END_RESP;
   return ::tlm::TLM_COMPLETED;
 }
@@ -66,7 +68,7 @@ void BusMaster::phase_due(::tlm::tlm_generic_payload& payload, const ::tlm::tlm_
     sc_core::sc_time delay = sc_core::SC_ZERO_TIME;
     socket->nb_transport_fw(payload, end, delay);
   }
-  answered(payload, now);
+  answered(find(payload), now);
 }
 
 // END_REQ, or an answer that implies it.
@@ -76,7 +78,8 @@ void BusMaster::request_ends(::tlm::tlm_generic_payload& payload, const sc_core:
   client_.taken(time);
 }
 
-void BusMaster::answered(::tlm::tlm_generic_payload& payload, const sc_core::sc_time& time) {
+void BusMaster::answered(std::vector<Request>::iterator request, const sc_core::sc_time& time) {
+  ::tlm::tlm_generic_payload& payload = *request->payload;
   if (payload.is_response_error()) {
     SC_REPORT_ERROR("/parallax/dma/response",
                     fmt::format("{}: {} bytes at {:#x}: {}", name(), payload.get_data_length(),
@@ -84,7 +87,6 @@ void BusMaster::answered(::tlm::tlm_generic_payload& payload, const sc_core::sc_
                         .c_str());
   }
   const bool was_full = requests_.size() == outstanding_;
-  const auto request = find(payload);
   const sc_core::sc_time& now = sc_core::sc_time_stamp();
   auto past = ending_.begin();
   for (; past != ending_.end() && past->end < now; ++past) {
@@ -92,7 +94,7 @@ void BusMaster::answered(::tlm::tlm_generic_payload& payload, const sc_core::sc_
     past_.bytes += past->bytes;
     ++past_.requests;
   }
-  ending_.erase(ending_.begin(), past);
+  if (past != ending_.begin()) ending_.erase(ending_.begin(), past);
   const auto later =
       std::find_if(ending_.rbegin(), ending_.rend(), [&](const Span& s) { return s.end <= time; });
   ending_.insert(later.base(), {request->time, time, payload.get_data_length()});

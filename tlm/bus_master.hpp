@@ -103,7 +103,7 @@ class BusMaster final : public sc_core::sc_module {
                                        sc_core::sc_time& delay);
   void phase_due(::tlm::tlm_generic_payload& payload, const ::tlm::tlm_phase& phase);
   void request_ends(::tlm::tlm_generic_payload& payload, const sc_core::sc_time& time);
-  void answered(::tlm::tlm_generic_payload& payload, const sc_core::sc_time& time);
+  void answered(std::vector<Request>::iterator request, const sc_core::sc_time& time);
   std::vector<Request>::iterator find(const ::tlm::tlm_generic_payload& payload);
 
   PayloadPool pool_;

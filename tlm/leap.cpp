@@ -166,7 +166,7 @@ bool Leap::write_pending(Member& member) {
     ++stage.left_;
     for (StreamBase* stream : stage.outputs_.of_mask[firing.produce])
       stream->mark_written(written, Cycles(0));
-    stage.note_write(stage.frames_[firing.frame], written);
+    stage.note_write(firing.frame, written);
     member.last_event_write = written;
   }
   return true;
@@ -279,7 +279,7 @@ void Leap::commit_events(Member& member, std::uint64_t until) {
     stage.pipe_[stage.entered_++ & stage.pipe_mask_] = {
         start,         written,
         event.produce, StageActivity::kBlocked,
-        nullptr,       static_cast<std::uint32_t>(stage.frames_.size() - 1)};
+        nullptr,       stage.frame_number_};
     if (event.pending) {
       --member.claimed_pending;
       continue;
@@ -290,7 +290,7 @@ void Leap::commit_events(Member& member, std::uint64_t until) {
       --link->claimed_writes;
       link->stream->mark_written(written, Cycles(0));
     }
-    stage.note_write(stage.frames_.back(), written);
+    stage.note_write(stage.frame_number_, written);
   }
 }
 

@@ -47,7 +47,6 @@ void Leap::materialize(Member& member, std::uint64_t periods) {
   if (member.writes == 0) return;
 
   const std::uint64_t size = stage.pipe_mask_ + 1;
-  const auto frame = static_cast<std::uint32_t>(stage.frames_.size() - 1);
   // The entries of one period, from which all others follow; they may be overwritten below.
   std::vector<Stage::Firing> entered;
   std::vector<Stage::Firing> left;
@@ -62,7 +61,7 @@ void Leap::materialize(Member& member, std::uint64_t periods) {
     Stage::Firing& entry = stage.pipe_[(stage.entered_ + i) & stage.pipe_mask_];
     entry.start = model.start + shift(i / member.writes);
     entry.produce = model.produce;
-    entry.frame = frame;
+    entry.frame = stage.frame_number_;
   }
   for (std::uint64_t i = added - std::min(added, size); i < added; ++i) {
     const Stage::Firing& model = left[i % member.writes];

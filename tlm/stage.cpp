@@ -159,16 +159,14 @@ bool Stage::fire() {
   }
   starts_[statistics_.firings % kStartsKept] = start;
   for (StreamBase* stream : consumed) stream->mark_read(start, stream == latest ? starved : Cycles(0));
-  if (frame_begins) frames_.push_back({start, start, Cycles(-1), Cycles(-1), statistics_});
+  if (frame_begins) begin_frame(start);
   (work == StageActivity::kBlanking ? statistics_.blanking : statistics_.busy) += Cycles(phase.interval);
   ++statistics_.firings;
-  frames_.back().last_firing = start;
+  frame_->last_firing = start;
   free_ = start + Cycles(phase.interval);
   if (phase.produce != 0) {
     Firing& firing = pipe_[entered_++ & pipe_mask_];
-    firing = {start,         start,
-              phase.produce, StageActivity::kBlocked,
-              nullptr,       static_cast<std::uint32_t>(frames_.size() - 1)};
+    firing = {start, start, phase.produce, StageActivity::kBlocked, nullptr, frame_number_};
     if (latency_ == 0) {
       ++left_;
       write(firing, start);
@@ -214,7 +212,7 @@ bool Stage::write(Firing& firing, Cycles earliest) {
   for (StreamBase* stream : produced) {
     stream->mark_written(last_write_, stream == latest ? blocked : Cycles(0));
   }
-  note_write(frames_[firing.frame], last_write_);
+  note_write(firing.frame, last_write_);
   return true;
 }
 
@@ -225,10 +223,17 @@ StageActivity Stage::wait_for_room(const StreamBase& stream, Cycles wanted) {
                                                                   : StageActivity::kBlocked;
 }
 
-void Stage::note_write(FrameDates& frame, Cycles cycle) {
+void Stage::note_write(std::uint32_t number, Cycles cycle) {
+  FrameDates& frame = number == frame_number_ ? *frame_ : frames_[number];
   if (frame.first_write < Cycles(0)) frame.first_write = cycle;
   frame.last_write = cycle;
   last_write_ = cycle;
+}
+
+void Stage::begin_frame(Cycles cycle) {
+  frames_.push_back({cycle, cycle, Cycles(-1), Cycles(-1), statistics_});
+  frame_ = &frames_.back();
+  frame_number_ = static_cast<std::uint32_t>(frames_.size() - 1);
 }
 
 // Whether the dates that the next firing needs are known.

@@ -123,7 +123,8 @@ class Stage : public sc_core::sc_module, public Actor {
   bool can_fire() const;
   void drain();
   bool write(Firing& firing, Cycles earliest);
-  void note_write(FrameDates& frame, Cycles cycle);
+  void note_write(std::uint32_t frame, Cycles cycle);
+  void begin_frame(Cycles cycle);
   void observe(const Phase& phase, Streams consumed);
   static StageActivity wait_for_room(const StreamBase& stream, Cycles wanted);
   void step();
@@ -163,6 +164,8 @@ class Stage : public sc_core::sc_module, public Actor {
   Cycles last_write_{-1};
   StageStatistics statistics_;
   KeptRecords<FrameDates> frames_;
+  FrameDates* frame_ = nullptr;     // the last of these
+  std::uint32_t frame_number_ = 0;  // its number
 };
 
 }  // namespace parallax
