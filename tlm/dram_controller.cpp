@@ -108,7 +108,9 @@ bool DramController::plan_oldest() {
   const Queue& queue = plan_writing_ ? writes_ : reads_;
   if (groups_.size() > 1 || queue.misses != 0 || queue.bursts == 0) return false;
   const Entry& oldest = queue.entries.front();
-  plan_ = plan_column(oldest, 0);
+  plan_.clock = column_clock(oldest);
+  plan_.command = oldest.burst.write ? DramCommand::kWrite : DramCommand::kRead;
+  plan_.entry = 0;
   return banks_[oldest.burst.place.bank].column < plan_.clock;
 }
 
@@ -140,11 +142,14 @@ DramController::Plan DramController::plan_queue() {
   return column.entry < row.entry ? column : row;
 }
 
-// The read or write of a burst whose row is open.
-DramController::Plan DramController::plan_column(const Entry& entry, std::size_t index) const {
+// When a burst whose row is open can be read or written.
+DramController::Clock DramController::column_clock(const Entry& entry) const {
   // What could have been done before the last change has been done, or the direction was another.
-  const Clock ready = std::max({command_free_, changed_ + 1, column_ready(entry.burst)});
-  return {ready, entry.burst.write ? DramCommand::kWrite : DramCommand::kRead, index};
+  return std::max({command_free_, changed_ + 1, column_ready(entry.burst)});
+}
+
+DramController::Plan DramController::plan_column(const Entry& entry, std::size_t index) const {
+  return {column_clock(entry), entry.burst.write ? DramCommand::kWrite : DramCommand::kRead, index};
 }
 
 // What opens the row of a burst, or closes the one in its place.
@@ -182,22 +187,22 @@ DramController::Clock DramController::activate_ready(std::uint32_t number) const
 }
 
 void DramController::issue(std::vector<Done>& done) {
-  const Plan plan = plan_;
+  const Clock at = plan_.clock;
   writing_ = plan_writing_;
-  changed_ = plan.clock;
-  if (plan.command == DramCommand::kRead || plan.command == DramCommand::kWrite) {
+  changed_ = at;
+  if (plan_.command == DramCommand::kRead || plan_.command == DramCommand::kWrite) {
     Queue& from = queue();
-    Entry& entry = from.entries[plan.entry];
+    Entry& entry = from.entries[plan_.entry];
     const Burst burst = entry.burst;
-    tell(plan.clock, plan.command, burst.place);
+    tell(at, plan_.command, burst.place);
     --from.bursts;
     if (--entry.bursts == 0)
-      from.entries.erase(from.entries.begin() + static_cast<std::ptrdiff_t>(plan.entry));
-    column(plan.clock, burst, done);
+      from.entries.erase(from.entries.begin() + static_cast<std::ptrdiff_t>(plan_.entry));
+    column(at, burst, done);
   } else {
-    issue_row(plan);
+    issue_row(plan_);
   }
-  command_free_ = plan.clock + 1;
+  command_free_ = at + 1;
   planned_ = false;
 }
 
@@ -263,7 +268,7 @@ void DramController::column(Clock at, const Burst& burst, std::vector<Done>& don
     ++statistics_.turn_arounds;
   last_was_write_ = burst.write;
   lose_time(at, column_free_, lost_);
-  done.push_back({burst.tag, burst.write, data});
+  done.emplace_back(burst.tag, burst.write, data);
 }
 
 // What the efficiency takes from the time after a column command.

@@ -69,6 +69,8 @@ class DramController {
     std::uint64_t tag;
     bool write;
     Clock data_end;  ///< clock in which the last beat is over
+
+    Done(std::uint64_t of, bool is_write, Clock end) : tag(of), write(is_write), data_end(end) {}
   };
 
   DramController(const DramTiming& timing, const DramPolicy& policy);
@@ -88,7 +90,7 @@ class DramController {
       planned_ = planned_ && direction() == plan_writing_;
       return;
     }
-    queue.entries.push_back({burst, 1});
+    queue.entries.emplace_back(burst);
     if (queue.misses >= 0 && banks_[burst.place.bank].open_row != std::int64_t{burst.place.row})
       ++queue.misses;
     planned_ = planned_ && direction() == plan_writing_ && (burst.write != plan_writing_ || plan_newest());
@@ -118,7 +120,9 @@ class DramController {
  private:
   struct Entry {  // bursts of one row with one tag, one after the other
     Burst burst;
-    std::size_t bursts;
+    std::size_t bursts = 1;
+
+    explicit Entry(const Burst& first) : burst(first) {}
     bool joins(const Burst& next) const {
       return burst.tag == next.tag && burst.place.bank == next.place.bank &&
              burst.place.row == next.place.row;
@@ -158,6 +162,7 @@ class DramController {
   bool plan_oldest();
   void rows_change() { reads_.misses = writes_.misses = -1; }
   bool plan_newest();
+  Clock column_clock(const Entry& entry) const;
   Plan plan_column(const Entry& entry, std::size_t index) const;
   Plan plan_row(const Entry& entry, std::size_t index) const;
   Plan plan_refresh(Clock at) const;

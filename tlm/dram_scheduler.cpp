@@ -172,7 +172,9 @@ void DramScheduler::enter(std::size_t id, MemoryService& service) {
     port.next = payload.get_address() / burst_bytes_ * burst_bytes_;
     port.write = payload.is_write();
     if (!port.write) {
-      port.reads.push_back({{}, port.bursts_left, 0});
+      Read& read = port.reads.add();
+      read.bursts_left = port.bursts_left;
+      read.end = 0;
       ++reads_;
     }
   }
@@ -246,7 +248,10 @@ void DramScheduler::add_beats(Clock end, std::size_t id) {
   if (!beats_.empty() && beats_.back().end == begin && beats_.back().port == id) {
     beats_.back().end = end;
   } else {
-    beats_.push_back({begin, end, id});
+    Beats& beats = beats_.add();
+    beats.begin = begin;
+    beats.end = end;
+    beats.port = id;
   }
 }
 

@@ -83,19 +83,24 @@ void Leap::scan(Member& member) {
   const unsigned core = ports(member.core_in, member.core_out);
   const unsigned common = ports(member.common.consume, member.common.produce);
   const std::size_t segments = schedule.segments().size();
-  Stage::Position at = member.cursor;
+  const Schedule::Segment* const all = schedule.segments().data();
+  const Phase* const phases = schedule.phases().data();
+  // The cursor, a variable each: what has just been written in part must not be read as one.
+  std::size_t number = member.cursor.segment;
+  std::uint64_t pass = member.cursor.pass;
+  std::uint32_t phase_number = member.cursor.phase;
+  std::uint32_t count = member.cursor.count;
   std::uint64_t scanned = member.scanned;
   while (scanned < target && member.events.size() < kEventsAhead) {
-    if (at.segment == segments) {
+    if (number == segments) {
       member.ended = true;
       break;
     }
-    const Schedule::Segment& segment = schedule.segments()[at.segment];
-    const Phase& phase = schedule.phases()[segment.first_phase + at.phase];
+    const Schedule::Segment& segment = all[number];
+    const Phase& phase = phases[segment.first_phase + phase_number];
     // As same_in(), at once: this is gone through for each word of the map.
     const unsigned here = ports(phase.consume, phase.produce);
     const unsigned loose = here & ~core;
-    std::uint32_t count = phase.count - at.count;
     if (((here ^ common) & core) != 0 || phase.interval != member.common.interval ||
         (here == 0) != (common == 0)) {
       member.ended = true;
@@ -106,20 +111,34 @@ void Leap::scan(Member& member) {
         member.ended = true;  // a firing that writes to both kinds of stream is left to itself
         break;
       }
-      count = 1;
-      member.events.push_back(
-          {scanned, static_cast<PortMask>(loose), static_cast<PortMask>(loose >> 8U), false, at});
-    } else if (segment.phase_count == 1) {
-      const std::uint64_t rest = count + (segment.repeat - at.pass - 1) * phase.count;
-      scanned += rest;
-      stage.skip(at, rest);
-      continue;
+      Event& event = member.events.add();
+      event.firing = scanned;
+      event.consume = static_cast<PortMask>(loose);
+      event.produce = static_cast<PortMask>(loose >> 8U);
+      event.pending = false;
+      event.place.segment = number;
+      event.place.pass = pass;
+      event.place.phase = phase_number;
+      event.place.count = count;
+      ++scanned;
+      if (++count < phase.count) continue;
+    } else if (segment.phase_count == 1) {  // all passes are alike
+      scanned += phase.count - count + (segment.repeat - pass - 1) * phase.count;
+      pass = segment.repeat - 1;
+    } else {
+      scanned += phase.count - count;
     }
-    scanned += count;
-    at.count += count;
-    if (at.count == phase.count) stage.next_phase(at);
+    count = 0;
+    if (++phase_number < segment.phase_count) continue;
+    phase_number = 0;
+    if (++pass < segment.repeat) continue;
+    pass = 0;
+    ++number;
   }
-  member.cursor = at;
+  member.cursor.segment = number;
+  member.cursor.pass = pass;
+  member.cursor.phase = phase_number;
+  member.cursor.count = count;
   member.scanned = scanned;
 }
 
@@ -276,10 +295,13 @@ void Leap::commit_events(Member& member, std::uint64_t until) {
     }
     if (event.produce == 0) continue;
     const Cycles written = start + Cycles(stage.latency_);
-    stage.pipe_[stage.entered_++ & stage.pipe_mask_] = {
-        start,         written,
-        event.produce, StageActivity::kBlocked,
-        nullptr,       stage.frame_number_};
+    Stage::Firing& firing = stage.pipe_[stage.entered_++ & stage.pipe_mask_];
+    firing.start = start;
+    firing.left = written;
+    firing.produce = event.produce;
+    firing.wait = StageActivity::kBlocked;
+    firing.room = nullptr;
+    firing.frame = stage.frame_number_;
     if (event.pending) {
       --member.claimed_pending;
       continue;

@@ -166,7 +166,11 @@ bool Stage::fire() {
   free_ = start + Cycles(phase.interval);
   if (phase.produce != 0) {
     Firing& firing = pipe_[entered_++ & pipe_mask_];
-    firing = {start, start, phase.produce, StageActivity::kBlocked, nullptr, frame_number_};
+    firing.start = firing.left = start;
+    firing.produce = phase.produce;
+    firing.wait = StageActivity::kBlocked;
+    firing.room = nullptr;
+    firing.frame = frame_number_;
     if (latency_ == 0) {
       ++left_;
       write(firing, start);

@@ -104,8 +104,8 @@ class Stage : public sc_core::sc_module, public Actor {
   };
   struct Position {  // of the next firing in the schedule
     std::size_t segment = 0;
-    std::uint64_t pass = 0;
     std::uint32_t phase = 0;
+    std::uint64_t pass = 0;  // between the two, which would be read as one while one of them is written
     std::uint32_t count = 0;
 
     bool is_start() const { return count == 0 && phase == 0 && pass == 0 && segment == 0; }
