@@ -23,7 +23,7 @@ sc_core::sc_time BusMaster::place_at() const {
 }
 
 void BusMaster::send(::tlm::tlm_generic_payload& payload, const sc_core::sc_time& time) {
-  requests_.push_back({&payload, time});
+  requests_.emplace_back(&payload, time);
   requesting_ = &payload;
   for (BusListener* listener : listeners_) listener->requested(*this, time);
   const sc_core::sc_time& now = sc_core::sc_time_stamp();
@@ -95,9 +95,13 @@ void BusMaster::answered(std::vector<Request>::iterator request, const sc_core::
     ++past_.requests;
   }
   if (past != ending_.begin()) ending_.erase(ending_.begin(), past);
-  const auto later =
-      std::find_if(ending_.rbegin(), ending_.rend(), [&](const Span& s) { return s.end <= time; });
-  ending_.insert(later.base(), {request->time, time, payload.get_data_length()});
+  if (ending_.empty() || ending_.back().end <= time) {
+    ending_.emplace_back(request->time, time, payload.get_data_length());
+  } else {
+    const auto later =
+        std::find_if(ending_.rbegin(), ending_.rend(), [&](const Span& s) { return s.end <= time; });
+    ending_.emplace(later.base(), request->time, time, payload.get_data_length());
+  }
   latencies_.add(time - request->time);
   if (!listeners_.empty()) {
     const BusTransfer transfer{payload.is_write(), payload.get_address(), payload.get_data_length(),

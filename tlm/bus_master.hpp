@@ -92,11 +92,16 @@ class BusMaster final : public sc_core::sc_module {
   struct Request {
     ::tlm::tlm_generic_payload* payload;
     sc_core::sc_time time;
+
+    Request(::tlm::tlm_generic_payload* of, const sc_core::sc_time& at) : payload(of), time(at) {}
   };
   struct Span {
     sc_core::sc_time begin;
     sc_core::sc_time end;
     std::uint64_t bytes;
+
+    Span(const sc_core::sc_time& from, const sc_core::sc_time& to, std::uint64_t number)
+        : begin(from), end(to), bytes(number) {}
   };
 
   ::tlm::tlm_sync_enum nb_transport_bw(::tlm::tlm_generic_payload& payload, ::tlm::tlm_phase& phase,

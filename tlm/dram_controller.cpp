@@ -41,6 +41,7 @@ DramController::DramController(const DramTiming& timing, const DramPolicy& polic
       policy_(valid(policy)),
       banks_(static_cast<std::size_t>(timing.banks)),
       groups_(static_cast<std::size_t>(timing.bank_groups)),
+      command_share_(timing.burst_clocks() * 100 * 100 / policy.efficiency),
       refresh_due_(timing.refi > 0 ? timing.refi : kNever),
       wanted_(static_cast<std::size_t>(timing.banks)) {
   activates_.fill(kLongAgo);
@@ -55,22 +56,21 @@ bool DramController::plan_newest() {
   const std::size_t index = queue().entries.size() - 1;
   const Entry& entry = queue().entries[index];
   const std::uint32_t number = entry.burst.place.bank;
-  Plan newest;
+  Clock clock = kNever;
   const bool hit = banks_[number].open_row == std::int64_t{entry.burst.place.row};
   if (oldest_planned_) return hit;  // which can go no sooner
   if (hit) {
     if ((wanted_[number] & kPrepare) != 0) return false;  // the bank must not be closed any more
     wanted_[number] |= kHit;
-    newest = plan_column(entry, index);
+    clock = column_clock(entry);
   } else {
     if (wanted_[number] != 0) return true;
     wanted_[number] = kPrepare;
-    newest = plan_row(entry, index);
+    clock = row_clock(entry);
   }
-  if (newest.clock < std::min(plan_.clock, refresh_due_)) {
-    plan_ = newest;
-    refresh_next_ = false;
-  }
+  if (clock >= std::min(plan_.clock, refresh_due_)) return true;
+  hit ? plan_column(clock, index) : plan_row(clock, index);
+  refresh_next_ = false;
   return true;
 }
 
@@ -90,9 +90,9 @@ DramController::Clock DramController::next_command() {
 void DramController::plan_anew() {
   plan_writing_ = direction();
   oldest_planned_ = plan_oldest();
-  if (!oldest_planned_) plan_ = plan_queue();
+  if (!oldest_planned_) plan_queue();
   refresh_next_ = plan_.clock >= refresh_due_;
-  if (refresh_next_) plan_ = {std::max(refresh_due_, command_free_)};
+  if (refresh_next_) plan_.clock = std::max(refresh_due_, command_free_);
   planned_ = true;
 }
 
@@ -108,18 +108,18 @@ bool DramController::plan_oldest() {
   const Queue& queue = plan_writing_ ? writes_ : reads_;
   if (groups_.size() > 1 || queue.misses != 0 || queue.bursts == 0) return false;
   const Entry& oldest = queue.entries.front();
-  plan_.clock = column_clock(oldest);
-  plan_.command = oldest.burst.write ? DramCommand::kWrite : DramCommand::kRead;
-  plan_.entry = 0;
+  plan_column(column_clock(oldest), 0);
   return banks_[oldest.burst.place.bank].column < plan_.clock;
 }
 
 // The earliest command for the queue that is being served; of several in one clock the oldest burst's.
-DramController::Plan DramController::plan_queue() {
-  Plan column;
-  Plan row;
+void DramController::plan_queue() {
   const std::vector<Entry>& entries = queue().entries;
   std::fill(wanted_.begin(), wanted_.end(), std::uint8_t{0});
+  Clock column = kNever;
+  Clock row = kNever;
+  std::size_t column_entry = 0;
+  std::size_t row_entry = 0;
   std::size_t hits = 0;
   for (std::size_t i = 0; i < entries.size(); ++i) {
     const DramPlace& place = entries[i].burst.place;
@@ -127,19 +127,26 @@ DramController::Plan DramController::plan_queue() {
     ++hits;
     if (wanted_[place.bank] != 0) continue;  // an older burst for the same row can go as soon
     wanted_[place.bank] = kHit;
-    const Plan plan = plan_column(entries[i], i);
-    if (plan.clock < column.clock) column = plan;
+    if (const Clock clock = column_clock(entries[i]); clock < column) {
+      column = clock;
+      column_entry = i;
+    }
   }
   queue().misses = static_cast<std::int64_t>(entries.size() - hits);
   for (std::size_t i = 0; i < entries.size() && hits < entries.size(); ++i) {
     std::uint8_t& wanted = wanted_[entries[i].burst.place.bank];
     if (wanted != 0) continue;  // its row is wanted, or an older burst prepares it
     wanted = kPrepare;
-    const Plan plan = plan_row(entries[i], i);
-    if (plan.clock < row.clock) row = plan;
+    if (const Clock clock = row_clock(entries[i]); clock < row) {
+      row = clock;
+      row_entry = i;
+    }
   }
-  if (column.clock != row.clock) return column.clock < row.clock ? column : row;
-  return column.entry < row.entry ? column : row;
+  if (column != row ? column < row : column_entry < row_entry) {
+    plan_column(column, column_entry);
+  } else {
+    plan_row(row, row_entry);
+  }
 }
 
 // When a burst whose row is open can be read or written.
@@ -148,18 +155,25 @@ DramController::Clock DramController::column_clock(const Entry& entry) const {
   return std::max({command_free_, changed_ + 1, column_ready(entry.burst)});
 }
 
-DramController::Plan DramController::plan_column(const Entry& entry, std::size_t index) const {
-  return {column_clock(entry), entry.burst.write ? DramCommand::kWrite : DramCommand::kRead, index};
-}
-
-// What opens the row of a burst, or closes the one in its place.
-DramController::Plan DramController::plan_row(const Entry& entry, std::size_t index) const {
+// When the row of a burst can be opened, or the one in its place closed.
+DramController::Clock DramController::row_clock(const Entry& entry) const {
   const std::uint32_t number = entry.burst.place.bank;
   const Bank& bank = banks_[number];
-  const bool closed = bank.open_row < 0;
-  const Clock ready =
-      std::max({command_free_, changed_ + 1, closed ? activate_ready(number) : bank.precharge});
-  return {ready, closed ? DramCommand::kActivate : DramCommand::kPrecharge, index};
+  return std::max({command_free_, changed_ + 1, bank.open_row < 0 ? activate_ready(number) : bank.precharge});
+}
+
+void DramController::plan_column(Clock clock, std::size_t entry) {
+  plan_.clock = clock;
+  plan_.command = plan_writing_ ? DramCommand::kWrite : DramCommand::kRead;
+  plan_.entry = entry;
+}
+
+void DramController::plan_row(Clock clock, std::size_t entry) {
+  plan_.clock = clock;
+  plan_.entry = entry;
+  if (clock == kNever) return;  // there is none
+  const Bank& bank = banks_[queue().entries[entry].burst.place.bank];
+  plan_.command = bank.open_row < 0 ? DramCommand::kActivate : DramCommand::kPrecharge;
 }
 
 DramController::Plan DramController::plan_refresh(Clock at) const {
@@ -274,7 +288,7 @@ void DramController::column(Clock at, const Burst& burst, std::vector<Done>& don
 // What the efficiency takes from the time after a column command.
 void DramController::lose_time(Clock at, Clock& column_free, std::int64_t& lost) const {
   if (policy_.efficiency == 100) return;
-  lost += timing_.burst_clocks() * 100 * 100 / policy_.efficiency;
+  lost += command_share_;
   column_free = std::max(column_free, at) + lost / 100;
   lost %= 100;
 }

@@ -122,7 +122,12 @@ class DramController {
     Burst burst;
     std::size_t bursts = 1;
 
-    explicit Entry(const Burst& first) : burst(first) {}
+    explicit Entry(const Burst& first) {
+      burst.place.bank = first.place.bank;
+      burst.place.row = first.place.row;
+      burst.tag = first.tag;
+      burst.write = first.write;
+    }
     bool joins(const Burst& next) const {
       return burst.tag == next.tag && burst.place.bank == next.place.bank &&
              burst.place.row == next.place.row;
@@ -158,13 +163,14 @@ class DramController {
     return only_writes ||
            (writing_ ? writes_.bursts > policy_.low_watermark : writes_.bursts >= policy_.high_watermark);
   }
-  Plan plan_queue();
+  void plan_queue();
   bool plan_oldest();
   void rows_change() { reads_.misses = writes_.misses = -1; }
   bool plan_newest();
   Clock column_clock(const Entry& entry) const;
-  Plan plan_column(const Entry& entry, std::size_t index) const;
-  Plan plan_row(const Entry& entry, std::size_t index) const;
+  Clock row_clock(const Entry& entry) const;
+  void plan_column(Clock clock, std::size_t entry);
+  void plan_row(Clock clock, std::size_t entry);
   Plan plan_refresh(Clock at) const;
   void plan() {
     if (!planned_) plan_anew();
@@ -197,6 +203,7 @@ class DramController {
   std::array<Clock, 4> activates_{};  // the last four, in a ring
   std::size_t oldest_activate_ = 0;
   Clock command_free_ = 0;  // next clock without a command
+  const std::int64_t command_share_;  // hundredths of a clock that the efficiency makes of a column command
   Clock column_free_ = 0;   // when the efficiency allows the next column command
   std::int64_t lost_ = 0;   // hundredths of a clock, below one
   Clock refresh_due_;

@@ -97,11 +97,12 @@ bool DramScheduler::can_enter(std::size_t id, Clock clock) const {
 // Makes the port current whose burst enters in `clock`; false if none can.
 bool DramScheduler::choose(Clock clock) {
   if (ports_[current_].bursts_left != 0 && can_enter(current_, clock)) return true;
+  const bool all_enter = controller_.room(false) && controller_.room(true);
   const bool in_turn = memory_.arbitration == MemoryArbitration::kRoundRobin;
   std::size_t id = in_turn ? current_ + 1 : 0;
   for (std::size_t i = 0; i < ports_.size(); ++i, ++id) {
     if (id >= ports_.size()) id -= ports_.size();
-    if (!can_enter(id, clock)) continue;
+    if (arrivals_[id] > clock || (!all_enter && !can_enter(id, clock))) continue;
     current_ = id;
     return true;
   }

@@ -282,8 +282,7 @@ std::uint64_t Leap::possible_periods(Link& link, std::uint64_t wanted) {
 void Leap::commit_events(Member& member, std::uint64_t until) {
   Stage& stage = *member.stage;
   while (!member.events.empty() && member.events.front().firing < until) {
-    const Event event = member.events.front();
-    member.events.pop_front();
+    const Event& event = member.events.front();
     --member.checked;
     member.place = event.place;
     member.place_firing = event.firing;
@@ -293,22 +292,25 @@ void Leap::commit_events(Member& member, std::uint64_t until) {
       --link->claimed_reads;
       link->stream->mark_read(start, Cycles(0));
     }
-    if (event.produce == 0) continue;
+    const PortMask produce = event.produce;
+    const bool pending = event.pending;
+    member.events.pop_front();
+    if (produce == 0) continue;
     const Cycles written = start + Cycles(stage.latency_);
     Stage::Firing& firing = stage.pipe_[stage.entered_++ & stage.pipe_mask_];
     firing.start = start;
     firing.left = written;
-    firing.produce = event.produce;
+    firing.produce = produce;
     firing.wait = StageActivity::kBlocked;
     firing.room = nullptr;
     firing.frame = stage.frame_number_;
-    if (event.pending) {
+    if (pending) {
       --member.claimed_pending;
       continue;
     }
     stage.left_ = stage.entered_;
     for (Link* link : member.loose_out) {
-      if (!contains(event.produce, link->writer_port)) continue;
+      if (!contains(produce, link->writer_port)) continue;
       --link->claimed_writes;
       link->stream->mark_written(written, Cycles(0));
     }

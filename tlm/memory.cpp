@@ -224,7 +224,9 @@ void Memory::begin_response(const Answer& answer, Picoseconds now) {
   Port& port = ports_[answer.port];
   const Picoseconds at = std::max({now, answer.ready, port.answered_until});
   count_answers(port, now);
-  port.told.push_back({at, at - answer.request.arrival});
+  Told& told = port.told.add();
+  told.date = at;
+  told.latency = at - answer.request.arrival;
   sc_core::sc_time delay = time(at - now);
   if (answer.request.blocking != nullptr) {
     answer.request.blocking->notify(delay);

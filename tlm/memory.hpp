@@ -95,7 +95,12 @@ class Memory : public sc_core::sc_module, private MemoryService {
 
   void served(std::size_t port, const MemoryRequest& request) override;
   void answered(std::size_t port, const MemoryRequest& request, Picoseconds ready) override {
-    answers_.push_back({request, ready, port});
+    Answer& answer = answers_.add();
+    answer.request.payload = request.payload;
+    answer.request.arrival = request.arrival;
+    answer.request.blocking = request.blocking;
+    answer.ready = ready;
+    answer.port = port;
   }
 
   void run();

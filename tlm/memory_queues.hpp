@@ -63,7 +63,10 @@ class MemoryQueues {
   void push(std::size_t port, const MemoryRequest& request) {
     Ring<MemoryRequest>& queue = ports_[port].queue;
     if (queue.empty()) arrivals_[port] = request.arrival;
-    queue.push_back(request);
+    MemoryRequest& last = queue.add();
+    last.payload = request.payload;
+    last.arrival = request.arrival;
+    last.blocking = request.blocking;
     ++waiting_;
   }
   /// The queue has no room, and no other request is refused.
