@@ -202,10 +202,10 @@ class DramController {
   Free any_;                          // and all of them
   std::array<Clock, 4> activates_{};  // the last four, in a ring
   std::size_t oldest_activate_ = 0;
-  Clock command_free_ = 0;  // next clock without a command
+  Clock command_free_ = 0;            // next clock without a command
   const std::int64_t command_share_;  // hundredths of a clock that the efficiency makes of a column command
-  Clock column_free_ = 0;   // when the efficiency allows the next column command
-  std::int64_t lost_ = 0;   // hundredths of a clock, below one
+  Clock column_free_ = 0;             // when the efficiency allows the next column command
+  std::int64_t lost_ = 0;             // hundredths of a clock, below one
   Clock refresh_due_;
   Clock refresh_free_ = 0;  // after the precharge of all banks
   bool last_was_write_ = false;

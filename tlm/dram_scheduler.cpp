@@ -18,6 +18,7 @@ constexpr std::uint64_t kPorts = 256;
 DramScheduler::DramScheduler(const DramMemory& memory)
     : memory_(memory),
       period_((memory.timing.validate(), memory.timing.clock_period_ps)),
+      rate_(1, static_cast<std::uint64_t>(period_)),
       burst_bytes_(static_cast<std::uint64_t>(memory.timing.burst_bytes())),
       address_(memory.timing, memory.mapping),
       controller_(memory.timing, memory.policy) {
@@ -39,8 +40,9 @@ double DramScheduler::usable_bandwidth() const {
 }
 
 void DramScheduler::serve_until(Picoseconds date, bool inclusive, MemoryService& service) {
-  if (beats_.size() > kBeats) count_beats(clock_at_or_after(date));  // or they pile up until somebody asks
-  const Clock limit = clock_at_or_after(date) + (inclusive && date.count() % period_ == 0 ? 1 : 0);
+  const Clock clock = clock_at_or_after(date);
+  if (beats_.size() > kBeats) count_beats(clock);  // or they pile up until somebody asks
+  const Clock limit = clock + (inclusive && date_of(clock) == date ? 1 : 0);
   if (limit <= decided_) return;
   enter_until(limit, service);
   run_controller(limit, service);

@@ -7,6 +7,7 @@
 #include "tlm/dram_address.hpp"
 #include "tlm/dram_controller.hpp"
 #include "tlm/memory_scheduler.hpp"
+#include "tlm/ratio.hpp"
 #include "tlm/ring.hpp"
 
 namespace parallax {
@@ -69,7 +70,9 @@ class DramScheduler final : public MemoryScheduler {
     std::size_t port;
   };
 
-  Clock clock_at_or_after(Picoseconds date) const { return (date.count() + period_ - 1) / period_; }
+  Clock clock_at_or_after(Picoseconds date) const {
+    return static_cast<Clock>(rate_.ceil(static_cast<std::uint64_t>(date.count())));
+  }
   Picoseconds date_of(Clock clock) const { return Picoseconds(clock * period_); }
   void enter_until(Clock limit, MemoryService& service);
   bool choose(Clock clock);
@@ -93,6 +96,7 @@ class DramScheduler final : public MemoryScheduler {
 
   const DramMemory memory_;
   const std::int64_t period_;  // ps
+  const Ratio rate_;           // clocks a ps
   const std::uint64_t burst_bytes_;
   const DramAddress address_;
   DramController controller_;

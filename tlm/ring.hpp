@@ -24,8 +24,8 @@ class Ring {
     if (size_ == capacity_) grow();
     slots_[(first_ + size_++) & mask_] = value;
   }
-  /// A new element with what its place happens to hold: to be filled in, field by field, which is faster than to
-  /// copy one that has just been made.
+  /// A new element with what its place happens to hold: to be filled in, field by field, which is faster than
+  /// to copy one that has just been made.
   T& add() {
     if (size_ == capacity_) grow();
     return slots_[(first_ + size_++) & mask_];
