@@ -3,6 +3,7 @@
 #include "tlm/leap.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "tlm/leap_detail.hpp"
 
@@ -53,14 +54,23 @@ bool Leap::extend() {
   periods_ += periods;
   for (Member& member : members_) {
     if (!member.active || !member.takes_part) continue;
-    if (StageListener* listener = member.stage->listener_) {
-      listener->repeated(*member.stage, member.observed, Cycles(period_ * as_signed(periods_ - periods + 1)),
-                         Cycles(period_), periods);
+    if (const StageListener* listener = member.stage->listener_;
+        listener != nullptr && (periods_ - member.told) * member.firings >= listener->patience()) {
+      tell(member);
     }
     member.done += periods * member.firings;
     commit_events(member, member.base + member.done);
   }
   return true;
+}
+
+// Tells the stage's listener of the periods that it does not know of yet.
+void Leap::tell(Member& member) {
+  StageListener* listener = member.stage->listener_;
+  const std::uint64_t periods = periods_ - std::exchange(member.told, periods_);
+  if (listener == nullptr || periods == 0) return;
+  listener->repeated(*member.stage, member.observed, Cycles(period_ * as_signed(periods_ - periods + 1)),
+                     Cycles(period_), periods);
 }
 
 // Follows the schedule as long as it keeps to the pattern.

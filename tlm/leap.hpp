@@ -99,6 +99,7 @@ class Leap {
     std::vector<FiringDates> observed;
     // Progress:
     std::uint64_t base = 0, done = 0;  // firings at the end of the period observed, and since
+    std::uint64_t told = 0;            // periods since, that the stage's listener knows of
     Stage::Position cursor;            // of firing `scanned`
     std::uint64_t scanned = 0;
     bool ended = false;  // the pattern ends at `scanned`
@@ -130,6 +131,7 @@ class Leap {
   Check check(Member& member, Event& event);
   bool write_pending(Member& member);
   std::uint64_t possible_periods(Link& link, std::uint64_t wanted);
+  void tell(Member& member);
   void commit_events(Member& member, std::uint64_t until);
   Cycles start_of(const Member& member, std::uint64_t firing) const;
   std::pair<std::size_t, Cycles> in_period(const Member& member, std::uint64_t firing) const;

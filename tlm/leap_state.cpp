@@ -13,6 +13,9 @@ namespace parallax {
 using namespace leap_detail;
 
 void Leap::materialize() {
+  for (Member& member : members_) {
+    if (member.active && member.takes_part) tell(member);
+  }
   const std::uint64_t periods = periods_ - materialized_;
   if (periods == 0) return;
   materialized_ = periods_;

@@ -74,9 +74,17 @@ class StageListener {
   virtual ~StageListener() = default;
   virtual void fired(const Stage& stage, const FiringDates& firing) = 0;
   /// The firings `period` again, `times` times: the first time `later` cycles later, each further time
-  /// `every` cycles after the one before.
+  /// `every` cycles after the one before. May come later than their dates are known, see patience().
   virtual void repeated(const Stage& stage, const std::vector<FiringDates>& period, Cycles later,
                         Cycles every, std::uint64_t times) = 0;
+  /// With fewer firings than these repeated() may wait for more of the same.
+  std::uint64_t patience() const { return patience_; }
+
+ protected:
+  void set_patience(std::uint64_t firings) { patience_ = firings; }
+
+ private:
+  std::uint64_t patience_ = 0;
 };
 
 }  // namespace parallax

@@ -148,11 +148,15 @@ void StreamBase::settle() const {
   freed_ = frees;
 }
 
-FifoFill StreamBase::fill() const {
+void StreamBase::fill(FifoFill& fill) const {
   settle();
-  FifoFill fill{settled_until_,    settled_writes_,   freed_, occupancy_.level_cycles(),
-                occupancy_.full(), occupancy_.empty()};
-  if (ahead_.periods_gone == nullptr) return fill;
+  fill.until = settled_until_;
+  fill.written = settled_writes_;
+  fill.freed = freed_;
+  fill.token_cycles = occupancy_.level_cycles();
+  fill.full_cycles = occupancy_.full();
+  fill.empty_cycles = occupancy_.empty();
+  if (ahead_.periods_gone == nullptr) return;
   const std::uint64_t periods = *ahead_.periods_gone - *ahead_.periods_added;
   fill.until += ahead_.period * static_cast<std::int64_t>(periods);
   fill.written += ahead_.tokens * periods;
@@ -160,7 +164,6 @@ FifoFill StreamBase::fill() const {
   fill.token_cycles += ahead_.token_cycles * periods;
   fill.full_cycles += ahead_.full_cycles * periods;
   fill.empty_cycles += ahead_.empty_cycles * periods;
-  return fill;
 }
 
 void StreamBase::wait_readable() {

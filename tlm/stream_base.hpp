@@ -131,9 +131,9 @@ class StreamBase : public sc_core::sc_prim_channel, public virtual sc_core::sc_i
     settle();
     return occupancy_;
   }
-  /// The same in short, as far as it is known without going through a leap that is under way: cheap to ask
-  /// for often.
-  FifoFill fill() const;
+  /// The same in short into `fill`, as far as it is known without going through a leap that is under way:
+  /// cheap to ask for often.
+  void fill(FifoFill& fill) const;
   Dataflow& dataflow() const { return dataflow_; }
   /// At most one listener; nullptr for none. It must outlive the simulation.
   void listen(StreamListener* listener) { listener_ = listener; }

@@ -2,71 +2,72 @@
 #include "traces/fifo_trace.hpp"
 
 namespace parallax {
-namespace {
-
-// Whether a span holds one level all the time.
-bool is_still(const FifoSpan& span) {
-  return span.written == 0 && span.freed == 0 && span.token_cycles == span.level * span.cycles;
-}
-
-}  // namespace
 
 FifoTrace::FifoTrace(const StreamBase& stream, PartId id, const std::shared_ptr<const RowEnds>& rows,
-                     const TraceWindow& window)
-    : stream_(stream),
-      id_(id),
-      window_(window),
-      spans_([](const FifoSpan& span) { return span.end; },
-             [](const FifoSpan& span, TraceSink& sink) { sink.fifo(span); }) {
+                     const TraceWindow& window, const TraceSinks& sinks)
+    : stream_(stream), window_(window), sinks_(sinks) {
+  pending_.stream = id;
   if (!rows || !window.bounded()) return;  // where it is does not matter
   writes_.emplace(rows);
   reads_.emplace(rows);
 }
 
 void FifoTrace::sample() {
-  const FifoFill fill = stream_.fill();
-  if (fill.until <= last_.until) return;
-  const ClockDomain& clock = stream_.writer_clock();
-  FifoSpan span;
-  span.stream = id_;
-  span.begin = last_date_;
-  span.end = last_date_ = clock.date_of(fill.until);
-  span.cycles = static_cast<std::uint64_t>((fill.until - last_.until).count());
-  span.token_cycles = fill.token_cycles - last_.token_cycles;
-  span.full_cycles = fill.full_cycles - last_.full_cycles;
-  span.empty_cycles = fill.empty_cycles - last_.empty_cycles;
-  span.written = fill.written - last_.written;
-  span.freed = fill.freed - last_.freed;
-  span.level = fill.level();
+  const FifoFill& last = fills_[last_];
+  FifoFill& fill = fills_[1 - last_];
+  stream_.fill(fill);
+  if (fill.until <= last.until) return;
+  const Picoseconds begin = last_date_;
+  const Picoseconds end = stream_.writer_clock().date_of(fill.until);
+  const auto cycles = static_cast<std::uint64_t>((fill.until - last.until).count());
+  const std::uint64_t token_cycles = fill.token_cycles - last.token_cycles;
+  const std::uint64_t full_cycles = fill.full_cycles - last.full_cycles;
+  const std::uint64_t empty_cycles = fill.empty_cycles - last.empty_cycles;
+  const std::uint64_t written = fill.written - last.written;
+  const std::uint64_t freed = fill.freed - last.freed;
+  const std::uint64_t level = fill.level();
   // In the window is what one of its sides does in it.
-  const bool inside = !window_.bounded() || window_.contains(place(writes_), span.begin, span.end) ||
-                      window_.contains(place(reads_), span.begin, span.end);
-  if (writes_) writes_->advance(span.written);
-  if (reads_) reads_->advance(span.freed);
-  last_ = fill;
-  if (has_pending_ && inside && is_still(span) && is_still(pending_) && span.level == pending_.level) {
-    pending_.end = span.end;
-    pending_.cycles += span.cycles;
-    pending_.token_cycles += span.token_cycles;
-    pending_.full_cycles += span.full_cycles;
-    pending_.empty_cycles += span.empty_cycles;
+  const bool inside = !window_.bounded() || window_.contains(place(writes_), begin, end) ||
+                      window_.contains(place(reads_), begin, end);
+  if (writes_) writes_->advance(written);
+  if (reads_) reads_->advance(freed);
+  last_ = 1 - last_;
+  last_date_ = end;
+  // Only what may still go on is held back, one level all the time, so that the others are told in time.
+  const bool still = written == 0 && freed == 0 && token_cycles == level * cycles;
+  if (has_pending_ && inside && still && level == pending_.level) {
+    pending_.end = end;
+    pending_.cycles += cycles;
+    pending_.token_cycles += token_cycles;
+    pending_.full_cycles += full_cycles;
+    pending_.empty_cycles += empty_cycles;
     return;
   }
-  push_pending();
-  pending_ = span;
+  tell_pending();
+  // In place: to copy what has just been written field by field costs more than to write it.
+  pending_.begin = begin;
+  pending_.end = end;
+  pending_.cycles = cycles;
+  pending_.token_cycles = token_cycles;
+  pending_.full_cycles = full_cycles;
+  pending_.empty_cycles = empty_cycles;
+  pending_.written = written;
+  pending_.freed = freed;
+  pending_.level = level;
   has_pending_ = inside;
-  // Only what may still go on is held back, so that the others are told in time.
-  if (!is_still(pending_)) push_pending();
+  if (!still) tell_pending();
 }
 
-void FifoTrace::push_pending() {
-  if (has_pending_) spans_.push(pending_);
+void FifoTrace::tell_pending() {
+  if (has_pending_) {
+    for (TraceSink* sink : sinks_) sink->fifo(pending_);
+  }
   has_pending_ = false;
 }
 
 void FifoTrace::finish() {
   sample();
-  push_pending();
+  tell_pending();
 }
 
 }  // namespace parallax

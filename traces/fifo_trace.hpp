@@ -6,37 +6,35 @@
 
 #include "tlm/stream_base.hpp"
 #include "traces/row_ends.hpp"
-#include "traces/trace_lane.hpp"
+#include "traces/trace_sink.hpp"
 #include "traces/trace_window.hpp"
 
 namespace parallax {
 
-/// Makes spans of how full a FIFO is, each time it is asked.
+/// Tells sinks how full a FIFO is, in spans from one time it is asked to another.
 class FifoTrace final {
  public:
   /// `rows`: of the tokens; none when they belong to no row.
   FifoTrace(const StreamBase& stream, PartId id, const std::shared_ptr<const RowEnds>& rows,
-            const TraceWindow& window);
+            const TraceWindow& window, const TraceSinks& sinks);
 
-  TraceLane& spans() { return spans_; }
   /// Looks how full the FIFO is; what has not changed since becomes one span.
   void sample();
   void finish();
 
  private:
   TracePlace place(const std::optional<RowCursor>& rows) const { return rows ? rows->place() : TracePlace{}; }
-  void push_pending();
+  void tell_pending();
 
   const StreamBase& stream_;
-  const PartId id_;
   const TraceWindow& window_;
-  FifoFill last_;  // that a span has been made until, and its date
+  const TraceSinks& sinks_;
+  FifoFill fills_[2];  // that a span has been made until, and its date, and the one at hand
+  std::size_t last_ = 0;
   Picoseconds last_date_;
   FifoSpan pending_;  // while it goes on alike
   bool has_pending_ = false;
   std::optional<RowCursor> writes_, reads_;
-
-  EventLane<FifoSpan> spans_;
 };
 
 }  // namespace parallax

@@ -213,7 +213,7 @@ void PerfettoTrace::wait(Track track, Picoseconds begin, Picoseconds end, StageA
   slice_end(track, end);
 }
 
-void PerfettoTrace::row_begins(const StageRow& row) {
+void PerfettoTrace::row_begins(const RowBegin& row) {
   const std::uint64_t name = row_name(row.place, row.draining);
   PerfettoEvent event(out_, row.begin, Type::kSliceBegin, stages_[static_cast<std::size_t>(row.stage)]);
   event.name(name);

@@ -23,7 +23,7 @@ class PerfettoTrace final : public TraceSink {
   explicit PerfettoTrace(ByteSink sink) : out_(std::move(sink)) {}
 
   void begin(const TraceParts& parts) override;
-  void row_begins(const StageRow& row) override;
+  void row_begins(const RowBegin& row) override;
   void row(const StageRow& row) override;
   void fifo(const FifoSpan& span) override;
   void port_row(const PortRow& row) override;

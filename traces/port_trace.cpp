@@ -13,36 +13,29 @@ Picoseconds date(const sc_core::sc_time& time) {
 }  // namespace
 
 PortTrace::PortTrace(BusMaster& master, PartId id, const std::shared_ptr<const RowEnds>& rows,
-                     const TraceWindow& window, bool bursts)
-    : id_(id),
-      window_(window),
-      wants_bursts_(bursts),
-      cursor_(rows),
-      rows_([](const PortRow& row) { return row.end; },
-            [](const PortRow& row, TraceSink& sink) { sink.port_row(row); }),
-      requests_(id),
-      bursts_([](const BurstTransfer& burst) { return burst.answered; },
-              [](const BurstTransfer& burst, TraceSink& sink) { sink.burst(burst); }) {
+                     const TraceWindow& window, bool bursts, const TraceSinks& sinks)
+    : id_(id), window_(window), wants_bursts_(bursts), cursor_(rows), sinks_(sinks) {
   row_.port = id;
   row_.place = cursor_.place();
   master.listen(*this);
 }
 
-Picoseconds PortTrace::Requests::tell(const TraceSinks& sinks) {
-  const Picoseconds date = next();
-  bool inside = false;
-  for (; next() == date; changes_.pop()) {
-    under_way_ += changes_.front().bursts;
-    inside |= changes_.front().inside;
+void PortTrace::known_until(Picoseconds until) {
+  while (!changes_.empty() && changes_.date() < until) {
+    const Picoseconds now = changes_.date();
+    bool inside = false;
+    for (; !changes_.empty() && changes_.date() == now; changes_.pop()) {
+      under_way_ += changes_.front().bursts;
+      inside |= changes_.front().inside;
+    }
+    if (!inside) continue;
+    for (TraceSink* sink : sinks_) sink->requests({id_, now, under_way_});
   }
-  if (inside) {
-    for (TraceSink* sink : sinks) sink->requests({port_, date, under_way_});
-  }
-  return next();
 }
 
 void PortTrace::requested(const BusMaster&, const sc_core::sc_time& time) {
-  if (wants_bursts_) requests_.add(date(time), 1, window_.contains(cursor_.place(), date(time), date(time)));
+  if (!wants_bursts_) return;
+  changes_.push({date(time), 1, window_.contains(cursor_.place(), date(time), date(time))});
 }
 
 void PortTrace::transferred(const BusMaster&, const BusTransfer& transfer) {
@@ -51,8 +44,10 @@ void PortTrace::transferred(const BusMaster&, const BusTransfer& transfer) {
   if (wants_bursts_) {
     const BurstTransfer burst{id_,       cursor_.place(), transfer.write, transfer.address, transfer.bytes,
                               requested, answered};
-    if (window_.contains(burst.place, requested, answered)) bursts_.push(burst);
-    requests_.add(answered, -1, window_.contains(burst.place, answered, answered));
+    if (window_.contains(burst.place, requested, answered)) {
+      for (TraceSink* sink : sinks_) sink->burst(burst);
+    }
+    changes_.push({answered, -1, window_.contains(burst.place, answered, answered)});
   }
   // A burst counts for the row in which it begins; its bytes for the rows that they belong to.
   if (row_.bursts == 0) row_.begin = std::max(row_.begin, requested);
@@ -73,7 +68,7 @@ void PortTrace::transferred(const BusMaster&, const BusTransfer& transfer) {
 
 // The row is complete.
 void PortTrace::next_row() {
-  if (window_.contains(row_.place, row_.begin, row_.end)) rows_.push(row_);
+  tell_row();
   const Picoseconds end = row_.end;
   row_ = {};
   row_.port = id_;
@@ -81,8 +76,13 @@ void PortTrace::next_row() {
   row_.begin = row_.end = end;
 }
 
+void PortTrace::tell_row() {
+  if (!window_.contains(row_.place, row_.begin, row_.end)) return;
+  for (TraceSink* sink : sinks_) sink->port_row(row_);
+}
+
 void PortTrace::finish() {
-  if (row_.bursts > 0 && window_.contains(row_.place, row_.begin, row_.end)) rows_.push(row_);
+  if (row_.bursts > 0) tell_row();
 }
 
 }  // namespace parallax

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "traces/recorder.hpp"
 
+#include <limits>
 #include <utility>
 
 namespace parallax {
@@ -12,20 +13,11 @@ Picoseconds now() { return Picoseconds(static_cast<std::int64_t>(sc_core::sc_tim
 
 Recorder::Recorder(const sc_core::sc_module_name& name, const RecorderConfig& config, Dataflow& dataflow,
                    Pace& pace, std::function<void()> add_parts)
-    : sc_module(name),
-      config_(config),
-      dataflow_(dataflow),
-      add_parts_(std::move(add_parts)),
-      steps_([](const Step& step) { return step.time; },
-             [](const Step& step, TraceSink& sink) { sink.frame_step(step.frame, step.step, step.time); }),
-      frames_(
-          [](const FrameRecord& record) { return record.at[static_cast<std::size_t>(FrameStep::kAtHost)]; },
-          [](const FrameRecord& record, TraceSink& sink) { sink.frame(record); }) {
+    : sc_module(name), config_(config), dataflow_(dataflow), add_parts_(std::move(add_parts)) {
   parts_.rows = config.rows;
   parts_.tiles = config.tiles;
   parts_.frames = config.frames;
   parts_.tokens = config.tokens;
-  lanes_ = {&steps_, &frames_};
   pace.add(config.pace, [this] { go_on(); });
 }
 
@@ -41,27 +33,22 @@ void Recorder::add(StreamBase& stream, const std::shared_ptr<const RowEnds>& row
   parts_.streams.push_back(part);
   stream_ids_[&stream] = id;
   streams_.push_back(&stream);
-  lanes_.push_back(&fifos_.emplace_back(stream, id, rows, config_.window).spans());
-  if (config_.tokens) lanes_.push_back(&tokens_.emplace_back(stream, id, rows, config_.window));
+  fifos_.emplace_back(stream, id, rows, config_.window, sinks_);
+  if (config_.tokens) tokens_.emplace_back(stream, id, rows, config_.window, sinks_);
 }
 
 void Recorder::add(Stage& stage, const StagePorts& ports) {
   const auto id = static_cast<PartId>(parts_.stages.size());
   parts_.stages.push_back({stage.basename(), stage.name()});
-  StageTrace& trace = stages_.emplace_back(stage, id, ports, config_.window, config_.tokens,
-                                           [this](const StreamBase* stream) { return id_of(stream); });
-  lanes_.push_back(&trace.rows());
-  if (config_.tokens) lanes_.push_back(&trace.firings());
+  stages_.emplace_back(
+      stage, id, ports, config_.window, config_.tokens,
+      [this](const StreamBase* stream) { return id_of(stream); }, sinks_);
 }
 
 void Recorder::add(BusMaster& master, const std::string& name, const std::shared_ptr<const RowEnds>& rows) {
   const auto id = static_cast<PartId>(parts_.ports.size());
   parts_.ports.push_back({name, master.name()});
-  PortTrace& trace = ports_.emplace_back(master, id, rows, config_.window, config_.tokens);
-  lanes_.push_back(&trace.rows());
-  if (!config_.tokens) return;
-  lanes_.push_back(&trace.requests());
-  lanes_.push_back(&trace.bursts());
+  ports_.emplace_back(master, id, rows, config_.window, config_.tokens, sinks_);
 }
 
 PartId Recorder::id_of(const StreamBase* stream) const {
@@ -70,12 +57,14 @@ PartId Recorder::id_of(const StreamBase* stream) const {
 }
 
 void Recorder::frame_step(std::int64_t frame, FrameStep step) {
-  if (config_.window.contains({frame, 0, 0}, now(), now())) steps_.push({frame, step, now()});
+  if (!config_.window.contains({frame, 0, 0}, now(), now())) return;
+  for (TraceSink* sink : sinks_) sink->frame_step(frame, step, now());
 }
 
 void Recorder::frame(const FrameRecord& record) {
   const Picoseconds begin = record.at[0];
-  if (config_.window.contains({record.frame, 0, 0}, begin, now())) frames_.push(record);
+  if (!config_.window.contains({record.frame, 0, 0}, begin, now())) return;
+  for (TraceSink* sink : sinks_) sink->frame(record);
 }
 
 void Recorder::start_of_simulation() {
@@ -92,7 +81,13 @@ void Recorder::go_on() {
   // Streams that are in a leap tell of their tokens when it has come to an end, or when they are asked.
   if (config_.tokens) dataflow_.bring_up_to_date();
   // Events of rows are few: to look for them costs more than to keep some.
-  if (config_.tokens || ++looks_ % kLooksBetween == 0) tell_until(now(), lanes_, sinks_);
+  if (config_.tokens || ++looks_ % kLooksBetween == 0) tell_until(now());
+}
+
+void Recorder::tell_until(Picoseconds date) {
+  for (TokenTrace& tokens : tokens_) tokens.known_until(date);
+  for (PortTrace& port : ports_) port.known_until(date);
+  for (TraceSink* sink : sinks_) sink->known_until(date);
 }
 
 void Recorder::finish(const std::vector<EndlessWait>& waits) {
@@ -100,7 +95,7 @@ void Recorder::finish(const std::vector<EndlessWait>& waits) {
   for (StageTrace& stage : stages_) stage.finish();
   for (FifoTrace& fifo : fifos_) fifo.finish();
   for (PortTrace& port : ports_) port.finish();
-  tell_until(TraceLane::kNever, lanes_, sinks_);
+  tell_until(Picoseconds(std::numeric_limits<std::int64_t>::max()));
   for (TraceSink* sink : sinks_) sink->end(now(), waits);
 }
 

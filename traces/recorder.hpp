@@ -30,9 +30,10 @@ struct RecorderConfig {
   sc_core::sc_time pace;    ///< how often FIFOs are looked at, and sinks told
 };
 
-/// Listens to the parts that it is given and tells sinks, in the order of the dates, what they do. What
-/// nobody is given to is not listened to, and computed for nobody. Dates are known ahead of kernel time, part
-/// by part; they are kept until kernel time has come to them, so that memory stays flat however long the run.
+/// Listens to the parts that it is given and tells sinks what they do. What nobody is given to is not
+/// listened to, and computed for nobody. Dates are known ahead of kernel time, part by part, and so are they
+/// told: each part's in their order, save that answers of a memory may come in another than they are known
+/// in.
 ///
 /// Parts are added when all ports are bound, sinks before; they must outlive the simulation.
 class Recorder final : public sc_core::sc_module {
@@ -45,6 +46,7 @@ class Recorder final : public sc_core::sc_module {
   void add(StreamBase& stream, const std::shared_ptr<const RowEnds>& rows);
   void add(Stage& stage, const StagePorts& ports);
   void add(BusMaster& master, const std::string& name, const std::shared_ptr<const RowEnds>& rows);
+  /// One that wants the order of the dates takes a DateOrder before it.
   void add(TraceSink& sink) { sinks_.push_back(&sink); }
 
   /// A frame has come to a step, now.
@@ -55,16 +57,11 @@ class Recorder final : public sc_core::sc_module {
   void finish(const std::vector<EndlessWait>& waits = {});
 
  private:
-  struct Step {
-    std::int64_t frame;
-    FrameStep step;
-    Picoseconds time;
-  };
-
   static constexpr std::uint64_t kLooksBetween = 8;
 
   void start_of_simulation() override;
   void go_on();
+  void tell_until(Picoseconds date);
   PartId id_of(const StreamBase* stream) const;
 
   const RecorderConfig config_;
@@ -78,9 +75,6 @@ class Recorder final : public sc_core::sc_module {
   std::deque<TokenTrace> tokens_;
   std::deque<StageTrace> stages_;
   std::deque<PortTrace> ports_;
-  EventLane<Step> steps_;
-  EventLane<FrameRecord> frames_;
-  std::vector<TraceLane*> lanes_;
   std::uint64_t looks_ = 0;
 };
 

@@ -28,7 +28,7 @@ void SinkThread::push(Kind kind, const Event& event) {
   filling_.size += 1 + sizeof event;
 }
 
-void SinkThread::row_begins(const StageRow& row) { push(Kind::kRowBegins, row); }
+void SinkThread::row_begins(const RowBegin& row) { push(Kind::kRowBegins, row); }
 void SinkThread::row(const StageRow& row) { push(Kind::kRow, row); }
 void SinkThread::fifo(const FifoSpan& span) { push(Kind::kFifo, span); }
 void SinkThread::port_row(const PortRow& row) { push(Kind::kPortRow, row); }
@@ -37,6 +37,7 @@ void SinkThread::firing(const StageFiring& firing) { push(Kind::kFiring, firing)
 void SinkThread::token(const TokenTransfer& token) { push(Kind::kToken, token); }
 void SinkThread::requests(const PortRequests& requests) { push(Kind::kRequests, requests); }
 void SinkThread::burst(const BurstTransfer& burst) { push(Kind::kBurst, burst); }
+void SinkThread::known_until(Picoseconds date) { push(Kind::kKnownUntil, date); }
 void SinkThread::frame_step(std::int64_t frame, FrameStep step, Picoseconds time) {
   push(Kind::kFrameStep, Step{frame, step, time});
 }
@@ -124,7 +125,7 @@ void SinkThread::tell(const Batch& batch) {
   for (const std::byte* const end = at + batch.size; at < end;) {
     switch (static_cast<Kind>(*at++)) {
       case Kind::kRowBegins:
-        sink_->row_begins(take<StageRow>(at));
+        sink_->row_begins(take<RowBegin>(at));
         break;
       case Kind::kRow:
         sink_->row(take<StageRow>(at));
@@ -154,6 +155,9 @@ void SinkThread::tell(const Batch& batch) {
         break;
       case Kind::kBurst:
         sink_->burst(take<BurstTransfer>(at));
+        break;
+      case Kind::kKnownUntil:
+        sink_->known_until(take<Picoseconds>(at));
         break;
     }
   }

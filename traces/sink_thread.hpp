@@ -31,7 +31,7 @@ class SinkThread final : public TraceSink {
   SinkThread& operator=(const SinkThread&) = delete;
 
   void begin(const TraceParts& parts) override;
-  void row_begins(const StageRow& row) override;
+  void row_begins(const RowBegin& row) override;
   void row(const StageRow& row) override;
   void fifo(const FifoSpan& span) override;
   void port_row(const PortRow& row) override;
@@ -41,6 +41,7 @@ class SinkThread final : public TraceSink {
   void token(const TokenTransfer& token) override;
   void requests(const PortRequests& requests) override;
   void burst(const BurstTransfer& burst) override;
+  void known_until(Picoseconds date) override;
   /// Returns when the sink has been told all. Throws what the sink throws now; see check().
   void end(Picoseconds time, const std::vector<EndlessWait>& waits) override;
 
@@ -58,7 +59,8 @@ class SinkThread final : public TraceSink {
     kFiring,
     kToken,
     kRequests,
-    kBurst
+    kBurst,
+    kKnownUntil
   };
   struct Step {
     std::int64_t frame;

@@ -15,7 +15,7 @@ std::int32_t rows_of_a_tile(const StagePorts& ports) {
 }  // namespace
 
 StageTrace::StageTrace(Stage& stage, PartId id, const StagePorts& ports, const TraceWindow& window,
-                       bool firings, StreamId stream_id)
+                       bool firings, StreamId stream_id, const TraceSinks& sinks)
     : id_(id),
       clock_(stage.clock()),
       schedule_(rows_of(stage.schedule(), ports)),
@@ -24,12 +24,7 @@ StageTrace::StageTrace(Stage& stage, PartId id, const StagePorts& ports, const T
       window_(window),
       wants_firings_(firings),
       stream_id_(std::move(stream_id)),
-      rows_([](const Event& event) { return event.begins ? event.row.begin : event.row.end; },
-            [](const Event& event, TraceSink& sink) {
-              event.begins ? sink.row_begins(event.row) : sink.row(event.row);
-            }),
-      firings_([](const StageFiring& firing) { return firing.start; },
-               [](const StageFiring& firing, TraceSink& sink) { sink.firing(firing); }) {
+      sinks_(sinks) {
   current_.stage = id;
   stage.listen(this);
 }
@@ -49,6 +44,7 @@ void StageTrace::repeated(const Stage&, const std::vector<FiringDates>& period, 
     firing_ += times * period.size();
     free_ = period.back().start + Cycles(period.back().interval) + later +
             every * static_cast<std::int64_t>(times - 1);
+    wait_for_row();
     return;
   }
   while (times > 0) {
@@ -79,6 +75,7 @@ void StageTrace::repeated(const Stage&, const std::vector<FiringDates>& period, 
     later += every;
     --times;
   }
+  wait_for_row();
 }
 
 // `in_row_` is false before the first firing of a row.
@@ -111,7 +108,7 @@ void StageTrace::note_firing(const FiringDates& firing) {
   event.room_wait = firing.room_wait;
   if (firing.ready > firing.free) event.input = id_of(firing.input);
   if (firing.start > firing.ready) event.room = id_of(firing.room);
-  firings_.push(event);
+  for (TraceSink* sink : sinks_) sink->firing(event);
 }
 
 void StageTrace::add_wait(const Wait& wait, std::vector<Wait>& waits) {
@@ -167,6 +164,8 @@ void StageTrace::begin_row(Cycles start) {
   const ScheduleRow& row = schedule_row();
   const bool last = row_ + 1 == schedule_.rows.size();
   row_end_ = last ? schedule_.firings : schedule_.rows[row_ + 1].firing;
+  // The next row's entry, which nobody has looked at for a frame, is on its way when it is wanted.
+  __builtin_prefetch(&row + 4);
   waits_.clear();
   current_ = {};
   current_.stage = id_;
@@ -176,7 +175,8 @@ void StageTrace::begin_row(Cycles start) {
   current_.row_written = row.row_written < 0 ? -1 : row.row_written % rows_of_a_tile_;
   current_.begin = date(start);
   in_window_ = window_.contains(current_.place, current_.begin, current_.begin);
-  if (in_window_) rows_.push({current_, true});
+  if (!in_window_) return;
+  for (TraceSink* sink : sinks_) sink->row_begins(current_);
 }
 
 // The row is over with the firing `next`, whose waits belong to it.
@@ -198,7 +198,8 @@ void StageTrace::end_row(const FiringDates& next) {
     current_.longest_wait = longest->activity;
     current_.longest_at = id_of(longest->stream);
   }
-  if (in_window_) rows_.push({current_, false});
+  if (!in_window_) return;
+  for (TraceSink* sink : sinks_) sink->row(current_);
 }
 
 void StageTrace::finish() {

@@ -7,38 +7,35 @@
 
 #include "tlm/stage.hpp"
 #include "traces/stage_rows.hpp"
-#include "traces/trace_lane.hpp"
+#include "traces/trace_sink.hpp"
 #include "traces/trace_window.hpp"
 
 namespace parallax {
 
-/// Makes rows, and on request firings, of what a stage tells of its firings. Leaps are taken as they come:
-/// only where a row begins within one are firings gone through one by one, unless all are wanted.
+/// Tells sinks the rows, and on request the firings, that a stage's firings make. Leaps are taken as they
+/// come: only where a row begins within one are firings gone through one by one, unless all are wanted.
 class StageTrace final : public StageListener {
  public:
   /// Number of a stream.
   using StreamId = std::function<PartId(const StreamBase* stream)>;
 
   StageTrace(Stage& stage, PartId id, const StagePorts& ports, const TraceWindow& window, bool firings,
-             StreamId stream_id);
+             StreamId stream_id, const TraceSinks& sinks);
 
-  TraceLane& rows() { return rows_; }
-  TraceLane& firings() { return firings_; }
   /// The stage has gone as far as it goes: its last row ends here.
   void finish();
 
  private:
-  struct Event {
-    StageRow row;
-    bool begins = false;
-  };
   struct Wait {  // in the row that is under way
     StageActivity activity;
     const StreamBase* stream;
     Cycles cycles;
   };
 
-  void fired(const Stage&, const FiringDates& firing) override { note(firing); }
+  void fired(const Stage&, const FiringDates& firing) override {
+    note(firing);
+    wait_for_row();
+  }
   void repeated(const Stage& stage, const std::vector<FiringDates>& period, Cycles later, Cycles every,
                 std::uint64_t times) override;
 
@@ -60,6 +57,7 @@ class StageTrace final : public StageListener {
   void begin_row(Cycles start);
   void end_row(const FiringDates& next);
   std::uint64_t until_next_row() const { return row_end_ - firing_; }
+  void wait_for_row() { set_patience(in_row_ && !wants_firings_ ? until_next_row() : 0); }
   PartId id_of(const StreamBase* stream);
   const ScheduleRow& schedule_row() const { return schedule_.rows[row_]; }
   Picoseconds date(Cycles cycle) const { return clock_.date_of(cycle); }
@@ -85,8 +83,7 @@ class StageTrace final : public StageListener {
   Period period_;   // the last one: a leap brings the same again and again
   Cycles free_{0};  // after the last firing
 
-  EventLane<Event> rows_;
-  EventLane<StageFiring> firings_;
+  const TraceSinks& sinks_;
 };
 
 }  // namespace parallax

@@ -69,35 +69,38 @@ void TokenTrace::Side::pass_again(const std::vector<Cycles>& period, Cycles ever
 }
 
 TokenTrace::TokenTrace(StreamBase& stream, PartId id, const std::shared_ptr<const RowEnds>& rows,
-                       const TraceWindow& window)
+                       const TraceWindow& window, const TraceSinks& sinks)
     : id_(id),
       window_(window),
+      sinks_(sinks),
       writes_(stream.writer_clock(), rows, window, stream.depth()),
       reads_(stream.reader_clock(), rows, window, stream.depth()) {
   stream.listen(this);
 }
 
-Picoseconds TokenTrace::tell(const TraceSinks& sinks) {
-  const Picoseconds date = next();
-  // The level is that after the cycle, for both.
-  const bool written = writes_.take(date);
-  const bool read = reads_.take(date);
-  if (written) {
-    tell(writes_.front(), false, sinks);
-    writes_.pop();
+void TokenTrace::known_until(Picoseconds until) {
+  for (;;) {
+    const Picoseconds date = std::min(writes_.next(), reads_.next());
+    if (date >= until) return;
+    // The level is that after the cycle, for both.
+    const bool written = writes_.take(date);
+    const bool read = reads_.take(date);
+    if (written) {
+      tell(writes_.front(), false);
+      writes_.pop();
+    }
+    if (read) {
+      tell(reads_.front(), true);
+      reads_.pop();
+    }
   }
-  if (read) {
-    tell(reads_.front(), true, sinks);
-    reads_.pop();
-  }
-  return next();
 }
 
-void TokenTrace::tell(const Token& token, bool is_read, const TraceSinks& sinks) const {
+void TokenTrace::tell(const Token& token, bool is_read) const {
   if (!window_.contains(token.place, token.begin, token.end)) return;
   const TokenTransfer transfer{id_,         is_read,   token.place,
                                token.begin, token.end, writes_.taken() - reads_.taken()};
-  for (TraceSink* sink : sinks) sink->token(transfer);
+  for (TraceSink* sink : sinks_) sink->token(transfer);
 }
 
 }  // namespace parallax

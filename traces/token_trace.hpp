@@ -7,24 +7,26 @@
 #include <optional>
 
 #include "tlm/stream_base.hpp"
+#include "traces/date_queue.hpp"
 #include "traces/row_ends.hpp"
-#include "traces/trace_lane.hpp"
+#include "traces/trace_sink.hpp"
 #include "traces/trace_window.hpp"
 
 namespace parallax {
 
-/// Makes an event of every token that passes a stream within a window, with the level of the FIFO. Tokens far
+/// Tells sinks every token that passes a stream within a window, with the level of the FIFO. Tokens far
 /// outside are counted only, however many.
-class TokenTrace final : public StreamListener, public TraceLane {
+class TokenTrace final : public StreamListener {
  public:
   /// `rows`: of the tokens; none when they belong to no row.
   TokenTrace(StreamBase& stream, PartId id, const std::shared_ptr<const RowEnds>& rows,
-             const TraceWindow& window);
+             const TraceWindow& window, const TraceSinks& sinks);
 
-  Picoseconds next() const override { return std::min(writes_.next(), reads_.next()); }
-  Picoseconds tell(const TraceSinks& sinks) override;
+  /// Tells of the tokens before `date`, when all of them are known.
+  void known_until(Picoseconds date);
 
  private:
+  static constexpr Picoseconds kNever{std::numeric_limits<std::int64_t>::max()};
   struct Token {
     Picoseconds begin;
     Picoseconds end;
@@ -80,10 +82,11 @@ class TokenTrace final : public StreamListener, public TraceLane {
                   std::uint64_t times) override {
     reads_.pass_again(period, every, times);
   }
-  void tell(const Token& token, bool is_read, const TraceSinks& sinks) const;
+  void tell(const Token& token, bool is_read) const;
 
   const PartId id_;
   const TraceWindow& window_;
+  const TraceSinks& sinks_;
   Side writes_;
   Side reads_;
 };

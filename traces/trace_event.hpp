@@ -50,13 +50,17 @@ struct TraceParts {
   bool tokens = false;      ///< whether every token is told of, not rows alone
 };
 
-/// A stage at work on a row: from the row's first firing until that of the row after.
-struct StageRow {
+/// A stage begins with a row: its first firing.
+struct RowBegin {
   PartId stage = kNoPart;
   TracePlace place;       ///< row: the row that it reads, or, when it is draining, the row that it writes
   bool draining = false;  ///< all rows are read, those held back come out
-  std::int32_t row_written = -1;  ///< the last row of which it wrote something in it; -1: none
+  std::int32_t row_written = -1;  ///< the last row of which it writes something in it; -1: none
   Picoseconds begin;
+};
+
+/// A stage at work on a row: from the row's first firing until that of the row after.
+struct StageRow : RowBegin {
   Picoseconds busy_until;    ///< the row's last firing is over; from here on the stage waits
   Picoseconds inputs_until;  ///< the inputs of the next firing are there; from here on it waits for room
   Picoseconds end;

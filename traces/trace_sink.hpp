@@ -15,13 +15,15 @@ using ByteSink = std::function<void(std::string_view)>;
 /// Takes a trace event by event, in the order of their dates: that of a span's end, of a firing's start, of a
 /// token's cycle, of an answer. What is told besides (row_begins, requests) is told at its date. Only spans
 /// of FIFOs may come late: how full one was is certain when its reader has gone on.
+///
+/// A recorder tells each part's events as they become known, parts ahead of each other: DateOrder stands
+/// between it and a sink.
 class TraceSink {
  public:
   virtual ~TraceSink() = default;
 
   virtual void begin(const TraceParts& /*parts*/) {}
-  /// A row's first firing, at row.begin; of the row, only stage, place and begin are known.
-  virtual void row_begins(const StageRow& /*row*/) {}
+  virtual void row_begins(const RowBegin& /*row*/) {}
   virtual void row(const StageRow& /*row*/) {}
   virtual void fifo(const FifoSpan& /*span*/) {}
   virtual void port_row(const PortRow& /*row*/) {}
@@ -33,8 +35,13 @@ class TraceSink {
   virtual void token(const TokenTransfer& /*token*/) {}
   virtual void requests(const PortRequests& /*requests*/) {}
   virtual void burst(const BurstTransfer& /*burst*/) {}
+  /// What there is to tell of before `date` has been told.
+  virtual void known_until(Picoseconds /*date*/) {}
   /// Nothing more happens. `waits`: of a machine that is stuck.
   virtual void end(Picoseconds /*time*/, const std::vector<EndlessWait>& /*waits*/) {}
 };
+
+/// Sinks that are all told the same.
+using TraceSinks = std::vector<TraceSink*>;
 
 }  // namespace parallax

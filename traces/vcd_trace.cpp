@@ -170,7 +170,7 @@ void VcdTrace::change_later(Picoseconds time, SignalId signal, std::int64_t valu
   later_.push({time.count(), signal, value});
 }
 
-void VcdTrace::row_begins(const StageRow& row) {
+void VcdTrace::row_begins(const RowBegin& row) {
   const StageSignals& stage = stages_[static_cast<std::size_t>(row.stage)];
   change(row.begin, stage.frame, row.place.frame + 1);
   change(row.begin, stage.row, row.place.row);

@@ -25,7 +25,7 @@ class VcdTrace final : public TraceSink {
   explicit VcdTrace(ByteSink sink) : out_(std::move(sink)) {}
 
   void begin(const TraceParts& parts) override;
-  void row_begins(const StageRow& row) override;
+  void row_begins(const RowBegin& row) override;
   void row(const StageRow& row) override;
   void fifo(const FifoSpan& span) override;
   void port_row(const PortRow& row) override;

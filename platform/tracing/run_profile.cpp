@@ -37,11 +37,11 @@ RunProfile::RunProfile(const Machine& machine, Pace& pace)
         for (const Machine::Port& port : machine_.ports())
           recorder_.add(*port.master, port.name, rows.of(port));
       }) {
-  recorder_.add(frame_);
+  recorder_.add(order_);
 }
 
 nlohmann::ordered_json RunProfile::to_json() const {
-  nlohmann::ordered_json tree{{"frame", frame_.to_json()}};
+  nlohmann::ordered_json tree{{"frame", frame_->to_json()}};
   for (std::size_t i = 0; i < frame_spans().size(); ++i) {
     tree["latency"][frame_spans()[i].name] = counts(machine_.latencies().steady(i));
   }

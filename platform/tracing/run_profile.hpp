@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "platform/machine.hpp"
+#include "traces/date_order.hpp"
 #include "traces/frame_profile.hpp"
 #include "traces/recorder.hpp"
 
@@ -28,7 +30,8 @@ class RunProfile {
 
  private:
   const Machine& machine_;
-  FrameProfile frame_{"map"};
+  const std::shared_ptr<FrameProfile> frame_ = std::make_shared<FrameProfile>("map");
+  DateOrder order_{frame_};
   Recorder recorder_;
 };
 

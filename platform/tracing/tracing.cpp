@@ -11,6 +11,7 @@
 #include "platform/machine_rows.hpp"
 #include "tlm/error.hpp"
 #include "traces/csv_trace.hpp"
+#include "traces/date_order.hpp"
 #include "traces/json_trace.hpp"
 #include "traces/perfetto_trace.hpp"
 #include "traces/vcd_trace.hpp"
@@ -102,7 +103,8 @@ Tracing::Tracing(const TraceChoice& choice, const Machine& machine, Pace& pace, 
                 [this] { add_parts(); }) {
   for (const std::string& format : choice.formats) {
     // A fault ends the simulation, and is thrown by finish(): the kernel would lose its line.
-    sinks_.push_back(std::make_unique<SinkThread>(make_sink(format, folder), [this] {
+    auto sink = std::make_unique<DateOrder>(make_sink(format, folder));
+    sinks_.push_back(std::make_unique<SinkThread>(std::move(sink), [this] {
       if (!std::exchange(stopping_, true)) sc_core::sc_stop();
     }));
     recorder_.add(*sinks_.back());

@@ -100,7 +100,7 @@ class FillProbe final : public sc_core::sc_module {
     fills.resize(dataflow_.streams().size());
     for (int i = 0; i < times_; ++i) {
       wait(pace_);
-      for (std::size_t s = 0; s < fills.size(); ++s) fills[s].push_back(dataflow_.streams()[s]->fill());
+      for (std::size_t s = 0; s < fills.size(); ++s) dataflow_.streams()[s]->fill(fills[s].emplace_back());
     }
   }
 
@@ -135,8 +135,8 @@ std::string differences(const GraphEdge& edge, const EdgeDates& dates, const Fif
   }
   pass(fill.until.count());
   const auto text = [](const FifoFill& f) {
-    return fmt::format("until {}: {} token cycles, {} full, {} empty", f.until.count(), f.token_cycles, f.full_cycles,
-                       f.empty_cycles);
+    return fmt::format("until {}: {} token cycles, {} full, {} empty", f.until.count(), f.token_cycles,
+                       f.full_cycles, f.empty_cycles);
   };
   const bool counts = fill.written >= expected.written && fill.written <= expected.written + last_written &&
                       fill.freed >= expected.freed && fill.freed <= expected.freed + last_freed;

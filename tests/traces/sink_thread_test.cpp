@@ -21,7 +21,7 @@ class Listener final : public TraceSink {
   explicit Listener(std::vector<std::string>& told, std::size_t fails_at = 0)
       : told_(told), fails_at_(fails_at) {}
   void begin(const TraceParts& parts) override { note("begin", parts.frames); }
-  void row_begins(const StageRow& row) override { note("row_begins", row.stage); }
+  void row_begins(const RowBegin& row) override { note("row_begins", row.stage); }
   void row(const StageRow& row) override { note("row", row.begin.count()); }
   void fifo(const FifoSpan& span) override { note("fifo", static_cast<std::int64_t>(span.written)); }
   void port_row(const PortRow& row) override { note("port_row", static_cast<std::int64_t>(row.bytes)); }
@@ -33,6 +33,7 @@ class Listener final : public TraceSink {
   void token(const TokenTransfer& token) override { note("token", token.begin.count()); }
   void requests(const PortRequests& requests) override { note("requests", requests.port); }
   void burst(const BurstTransfer& burst) override { note("burst", static_cast<std::int64_t>(burst.address)); }
+  void known_until(Picoseconds date) override { note("known_until", date.count()); }
   void end(Picoseconds time, const std::vector<EndlessWait>& waits) override {
     note("end", time.count() + static_cast<std::int64_t>(waits.size()));
   }
@@ -69,7 +70,7 @@ void tell(TraceSink& sink, std::int64_t events) {
     requests.port = 4;
     BurstTransfer burst{};
     burst.address = static_cast<std::uint64_t>(i);
-    switch (i % 10) {
+    switch (i % 11) {
       case 0:
         sink.row_begins(row);
         break;
@@ -96,6 +97,9 @@ void tell(TraceSink& sink, std::int64_t events) {
         break;
       case 8:
         sink.requests(requests);
+        break;
+      case 9:
+        sink.known_until(Picoseconds(i));
         break;
       default:
         sink.burst(burst);
