@@ -38,29 +38,42 @@ bool Leap::go_on(bool eager) {
 bool Leap::extend() {
   std::uint64_t periods = kAlways;
   waits_outside_ = true;
-  for (Member& member : members_) {
-    if (!member.active || !member.takes_part) continue;
+  const auto look = [&](Member& member) {
     bool outside = false;
     const std::uint64_t possible = possible_firings(member, outside) / member.firings;
     if (possible == 0 && !outside) waits_outside_ = false;
     periods = std::min(periods, possible);
+    return possible;
+  };
+  for (Member* member : irregular_) look(*member);
+  for (Member* member : regular_) {
+    // Its schedule alone can end its motion, and has been looked at for so many.
+    const std::uint64_t sure = member->sure_periods;
+    if (sure <= periods_ || sure - periods_ < periods) member->sure_periods = periods_ + look(*member);
   }
-  for (Link& link : links_) {
-    if (!link.core || periods == 0) continue;
+  for (std::size_t i = 0; i < open_.size() && periods != 0;) {
+    Link& link = *open_[i];
     periods = std::min(periods, possible_periods(link, periods));
     if (periods == 0) waits_outside_ = false;
+    if (is_sure(link)) {
+      open_[i] = open_.back();
+      open_.pop_back();
+    } else {
+      ++i;
+    }
   }
   if (periods == 0) return false;
   periods_ += periods;
-  for (Member& member : members_) {
-    if (!member.active || !member.takes_part) continue;
-    if (const StageListener* listener = member.stage->listener_;
-        listener != nullptr && (periods_ - member.told) * member.firings >= listener->patience()) {
-      tell(member);
+  for (const std::vector<Member*>* members : {&irregular_, &regular_}) {
+    for (Member* member : *members) {
+      const StageListener* listener = member->stage->listener_;
+      if (listener != nullptr && (periods_ - member->told) * member->firings >= listener->patience()) {
+        tell(*member);
+      }
+      member->done += periods * member->firings;
     }
-    member.done += periods * member.firings;
-    commit_events(member, member.base + member.done);
   }
+  for (Member* member : irregular_) commit_events(*member, member->base + member->done);
   return true;
 }
 
@@ -246,6 +259,14 @@ Leap::Check Leap::check(Member& member, Event& event) {
   }
   event.pending = pending;
   return Check::kInTime;
+}
+
+// Whether the stream holds nobody back any more, however many periods.
+bool Leap::is_sure(const Link& link) {
+  if (link.reads != link.writes) return false;
+  if (link.reads == 0) return true;
+  return (link.reads_bind || link.sure_reads >= link.base_written) &&
+         (link.writes_bind || link.sure_writes >= link.base_read + link.stream->depth());
 }
 
 // Periods, of those wanted, for which the stream is known to hold nobody back more than in the period

@@ -100,6 +100,7 @@ class Leap {
     // Progress:
     std::uint64_t base = 0, done = 0;  // firings at the end of the period observed, and since
     std::uint64_t told = 0;            // periods since, that the stage's listener knows of
+    std::uint64_t sure_periods = 0;    // periods since, that nothing but streams can hold back
     Stage::Position cursor;            // of firing `scanned`
     std::uint64_t scanned = 0;
     bool ended = false;  // the pattern ends at `scanned`
@@ -131,6 +132,7 @@ class Leap {
   Check check(Member& member, Event& event);
   bool write_pending(Member& member);
   std::uint64_t possible_periods(Link& link, std::uint64_t wanted);
+  static bool is_sure(const Link& link);
   void tell(Member& member);
   void commit_events(Member& member, std::uint64_t until);
   Cycles start_of(const Member& member, std::uint64_t firing) const;
@@ -147,6 +149,8 @@ class Leap {
   const ClockDomain& clock_;
   std::vector<Member> members_;
   std::vector<Link> links_;
+  std::vector<Member*> irregular_, regular_;  // active members that take part: with and without loose links
+  std::vector<Link*> open_;                   // core links that may still hold somebody back
   std::vector<Cycles> model_;  // dates of one period; a member for its memory only
   bool holding_ = false;
   bool wide_ = false;

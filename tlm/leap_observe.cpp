@@ -47,7 +47,7 @@ bool Leap::observe() {
       member.last_event_write = stage.last_write_;
       member.claimed_pending = 0;
       member.place_firing = 0;
-      member.done = member.told = 0;
+      member.done = member.told = member.sure_periods = 0;
       same = same && repeats(member);
       while (same && !member.ended && member.scanned < member.base) scan(member);
       same = same && member.scanned >= member.base;
@@ -65,6 +65,10 @@ bool Leap::observe() {
   }
   periods_ = materialized_ = 0;
   holding_ = same;
+  open_.clear();
+  for (Link& link : links_) {
+    if (link.core) open_.push_back(&link);
+  }
   if (same) announce();
   if (same) due_ = find_due();
   release_asked_ = false;

@@ -109,10 +109,10 @@ bool Leap::classify() {
       demote(member.out, &Link::writer_port, member.core_out);
     }
   }
-  bool any = false;
+  irregular_.clear();
+  regular_.clear();
   for (Member& member : members_) {
     if (!member.active || !member.takes_part) continue;
-    any = true;
     const auto loose = [this](const std::vector<int>& links, std::vector<Link*>& found) {
       found.clear();
       for (const int l : links) {
@@ -122,8 +122,9 @@ bool Leap::classify() {
     };
     loose(member.in, member.loose_in);
     loose(member.out, member.loose_out);
+    (member.loose_in.empty() && member.loose_out.empty() ? regular_ : irregular_).push_back(&member);
   }
-  return any;
+  return !irregular_.empty() || !regular_.empty();
 }
 
 // The firings after which the stage does the same again, in what it does to core ports: one, where they are

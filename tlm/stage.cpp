@@ -76,7 +76,7 @@ void Stage::advance() {
   if (schedule_.empty()) return;
   const std::uint64_t before = statistics_.firings;
   drain();
-  while (fire()) drain();
+  while (fire_writers() || fire()) drain();
   dataflow_.count_firings(statistics_.firings - before);
 }
 
@@ -176,6 +176,47 @@ bool Stage::fire() {
       write(firing, start);
     }
   }
+  step();
+  return true;
+}
+
+// The firings at hand that read nothing and write one stream, without latency, as fire() would go through them
+// one by one: most firings that take no part in periodic motion are of this kind, words out of a burst. False
+// if there were none.
+bool Stage::fire_writers() {
+  const Phase& phase = *phase_;
+  if (phase.consume != 0 || latency_ != 0 || observed_ != nullptr || listener_ != nullptr) return false;
+  StreamBase* const stream = outputs_.of_mask[phase.produce].only();
+  if (stream == nullptr || next_.is_start()) return false;
+  const std::uint64_t most =
+      std::min<std::uint64_t>(phase.count - next_.count, fire_limit_ - statistics_.firings);
+  const Cycles interval(phase.interval);
+  std::uint64_t fired = 0;
+  for (; fired < most && stream->write_date_known(); ++fired) {
+    Cycles start = stream->writable_at();
+    if (start > free_) {
+      statistics_.of(wait_for_room(*stream, free_)) += start - free_;
+      stream->count_blocked(start - free_);
+    } else {
+      start = free_;
+    }
+    free_ = start + interval;
+    starts_[(statistics_.firings + fired) % kStartsKept] = start;
+    Firing& firing = pipe_[entered_++ & pipe_mask_];
+    firing.start = firing.left = start;
+    firing.produce = phase.produce;
+    firing.wait = StageActivity::kBlocked;
+    firing.room = nullptr;
+    firing.frame = frame_number_;
+    if (frame_->first_write < Cycles(0)) frame_->first_write = start;
+    stream->mark_written(start, Cycles(0));
+  }
+  if (fired == 0) return false;
+  left_ = entered_;
+  last_write_ = frame_->last_write = frame_->last_firing = free_ - interval;
+  statistics_.busy += interval * static_cast<std::int64_t>(fired);
+  statistics_.firings += fired;
+  next_.count += static_cast<std::uint32_t>(fired - 1);
   step();
   return true;
 }

@@ -96,6 +96,8 @@ class Stage : public sc_core::sc_module, public Actor {
     StreamBase** last = nullptr;
     StreamBase** begin() const { return first; }
     StreamBase** end() const { return last; }
+    /// The only one, or nullptr.
+    StreamBase* only() const { return last - first == 1 ? *first : nullptr; }
   };
   struct Ports {  // all one way
     std::size_t count = 0;
@@ -120,6 +122,7 @@ class Stage : public sc_core::sc_module, public Actor {
   static std::vector<const StreamBase*> at_port(const Ports& ports, unsigned port);
 
   bool fire();
+  bool fire_writers();
   bool can_fire() const;
   void drain();
   bool write(Firing& firing, Cycles earliest);
