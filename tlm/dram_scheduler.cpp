@@ -20,6 +20,7 @@ DramScheduler::DramScheduler(const DramMemory& memory)
       period_((memory.timing.validate(), memory.timing.clock_period_ps)),
       rate_(1, static_cast<std::uint64_t>(period_)),
       burst_bytes_(static_cast<std::uint64_t>(memory.timing.burst_bytes())),
+      burst_clocks_(memory.timing.burst_clocks()),
       address_(memory.timing, memory.mapping),
       controller_(memory.timing, memory.policy) {
   if (memory.latency < 0)
@@ -206,12 +207,12 @@ void DramScheduler::take_done(MemoryService& service) {
     read.end = std::max(read.end, done.data_end);
     --read.bursts_left;
     while (!port.reads.empty() && port.reads.front().bursts_left == 0) {
-      const Read first = port.reads.front();
+      const Clock end = port.reads.front().end;
+      service.answered(id, port.reads.front().request, date_of(end + memory_.latency));
       port.reads.pop_front();
       --reads_;
       ++port.first_read;
-      if (!port.reads.empty()) port.reads.front().end = std::max(port.reads.front().end, first.end);
-      service.answered(id, first.request, date_of(first.end + memory_.latency));
+      if (!port.reads.empty()) port.reads.front().end = std::max(port.reads.front().end, end);
     }
   }
   done_.clear();
@@ -247,18 +248,26 @@ Picoseconds DramScheduler::next_answer() {
 Picoseconds DramScheduler::next_place() { return date_of(entry_bound() + 1); }
 
 void DramScheduler::add_beats(Clock end, std::size_t id) {
-  const Clock begin = end - memory_.timing.burst_clocks();
-  if (!beats_.empty() && beats_.back().end == begin && beats_.back().port == id) {
-    beats_.back().end = end;
-  } else {
-    Beats& beats = beats_.add();
-    beats.begin = begin;
-    beats.end = end;
-    beats.port = id;
+  const Clock begin = end - burst_clocks_;
+  if (last_beats_.end != begin || last_beats_.port != id) {
+    keep_last_beats();
+    last_beats_.begin = begin;
+    last_beats_.port = id;
   }
+  last_beats_.end = end;
+}
+
+void DramScheduler::keep_last_beats() {
+  if (last_beats_.begin == last_beats_.end) return;
+  Beats& beats = beats_.add();
+  beats.begin = last_beats_.begin;
+  beats.end = last_beats_.end;
+  beats.port = last_beats_.port;
+  last_beats_.begin = last_beats_.end;
 }
 
 void DramScheduler::count_beats(Clock clock) {
+  keep_last_beats();
   for (; !beats_.empty() && beats_.front().end <= clock; beats_.pop_front()) {
     ports_[beats_.front().port].bus += Cycles(beats_.front().end - beats_.front().begin);
   }

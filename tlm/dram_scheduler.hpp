@@ -90,6 +90,7 @@ class DramScheduler final : public MemoryScheduler {
   }
   void take_done(MemoryService& service);
   void add_beats(Clock end, std::size_t port);
+  void keep_last_beats();
   void count_beats(Clock clock);
   Clock next_entry() const;
   Clock entry_bound();
@@ -98,6 +99,7 @@ class DramScheduler final : public MemoryScheduler {
   const std::int64_t period_;  // ps
   const Ratio rate_;           // clocks a ps
   const std::uint64_t burst_bytes_;
+  const Clock burst_clocks_;
   const DramAddress address_;
   DramController controller_;
   MemoryQueues* queues_ = nullptr;
@@ -109,7 +111,8 @@ class DramScheduler final : public MemoryScheduler {
   Clock next_ = 0;           // in which the next burst may enter
   Clock decided_ = 0;        // all clocks before are decided
   std::vector<DramController::Done> done_;
-  Ring<Beats> beats_;
+  Ring<Beats> beats_;  // but for the last ones:
+  Beats last_beats_{0, 0, 0};
   std::size_t reads_ = 0;  // in the controller or on their way in
   Clock work_ = 0;         // clocks at work, of periods that are over
   Clock work_begin_ = 0;   // of the last period

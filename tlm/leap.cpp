@@ -218,7 +218,8 @@ Leap::Check Leap::check(Member& member, Event& event) {
   const Stage& stage = *member.stage;
   const auto [place, later] = in_period(member, event.firing);
   const Cycles free = member.observed[place].free + later;
-  const Cycles written = member.observed[place].start + later + Cycles(stage.latency_);
+  event.start = member.observed[place].start + later;
+  const Cycles written = event.start + Cycles(stage.latency_);
   for (const Link* link : member.loose_in) {
     if (!contains(event.consume, link->reader_port)) continue;
     StreamBase& stream = *link->stream;
@@ -312,12 +313,12 @@ std::uint64_t Leap::possible_periods(Link& link, std::uint64_t wanted) {
 
 void Leap::commit_events(Member& member, std::uint64_t until) {
   Stage& stage = *member.stage;
+  const Event* last = nullptr;
   while (!member.events.empty() && member.events.front().firing < until) {
     const Event& event = member.events.front();
+    last = &event;
     --member.checked;
-    member.place = event.place;
-    member.place_firing = event.firing;
-    const Cycles start = start_of(member, event.firing);
+    const Cycles start = event.start;
     for (Link* link : member.loose_in) {
       if (!contains(event.consume, link->reader_port)) continue;
       --link->claimed_reads;
@@ -347,6 +348,9 @@ void Leap::commit_events(Member& member, std::uint64_t until) {
     }
     stage.note_write(stage.frame_number_, written);
   }
+  if (last == nullptr) return;
+  member.place = last->place;  // its place in the ring is not taken before the next scan
+  member.place_firing = last->firing;
 }
 
 Cycles Leap::start_of(const Member& member, std::uint64_t firing) const {

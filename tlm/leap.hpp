@@ -80,6 +80,7 @@ class Leap {
     PortMask consume, produce;
     bool pending;  // it is not known when there is room for what it writes
     Stage::Position place;
+    Cycles start;  // once it is checked
   };
   struct Member {
     Stage* stage;
@@ -151,7 +152,7 @@ class Leap {
   std::vector<Link> links_;
   std::vector<Member*> irregular_, regular_;  // active members that take part: with and without loose links
   std::vector<Link*> open_;                   // core links that may still hold somebody back
-  std::vector<Cycles> model_;  // dates of one period; a member for its memory only
+  std::vector<Cycles> model_;                 // dates of one period; a member for its memory only
   bool holding_ = false;
   bool wide_ = false;
   bool release_asked_ = false;

@@ -188,7 +188,10 @@ void Memory::run() {
   serve_until(now, std::exchange(inclusive_, false));
   end_requests(now);
   while (!answers_.empty()) {
-    const Answer answer = answers_.front();
+    // A copy, as new ones may come meanwhile; field by field, as it has just been written so.
+    const Answer& first = answers_.front();
+    const Answer answer{
+        {first.request.payload, first.request.arrival, first.request.blocking}, first.ready, first.port};
     answers_.pop_front();
     Port& port = ports_[answer.port];
     if (port.answering || !port.held.empty()) {

@@ -180,9 +180,9 @@ bool Stage::fire() {
   return true;
 }
 
-// The firings at hand that read nothing and write one stream, without latency, as fire() would go through them
-// one by one: most firings that take no part in periodic motion are of this kind, words out of a burst. False
-// if there were none.
+// The firings at hand that read nothing and write one stream, without latency, as fire() would go through
+// them one by one: most firings that take no part in periodic motion are of this kind, words out of a burst.
+// False if there were none.
 bool Stage::fire_writers() {
   const Phase& phase = *phase_;
   if (phase.consume != 0 || latency_ != 0 || observed_ != nullptr || listener_ != nullptr) return false;
