@@ -185,7 +185,7 @@ bool Stage::fire() {
 // False if there were none.
 bool Stage::fire_writers() {
   const Phase& phase = *phase_;
-  if (phase.consume != 0 || latency_ != 0 || observed_ != nullptr || listener_ != nullptr) return false;
+  if (phase.consume != 0 || latency_ != 0 || observed_ != nullptr) return false;
   StreamBase* const stream = outputs_.of_mask[phase.produce].only();
   if (stream == nullptr || next_.is_start()) return false;
   const std::uint64_t most =
@@ -193,12 +193,17 @@ bool Stage::fire_writers() {
   const Cycles interval(phase.interval);
   std::uint64_t fired = 0;
   for (; fired < most && stream->write_date_known(); ++fired) {
-    Cycles start = stream->writable_at();
+    const Cycles room = stream->writable_at();
+    const Cycles start = std::max(free_, room);
+    StageActivity wait = StageActivity::kBlocked;
     if (start > free_) {
-      statistics_.of(wait_for_room(*stream, free_)) += start - free_;
+      wait = wait_for_room(*stream, free_);
+      statistics_.of(wait) += start - free_;
       stream->count_blocked(start - free_);
-    } else {
-      start = free_;
+    }
+    if (listener_ != nullptr) {
+      listener_->fired(*this, {free_, free_, start, phase.interval, StageActivity::kBusy,
+                               StageActivity::kStarved, wait, nullptr, stream});
     }
     free_ = start + interval;
     starts_[(statistics_.firings + fired) % kStartsKept] = start;
