@@ -329,13 +329,7 @@ void Leap::commit_events(Member& member, std::uint64_t until) {
     member.events.pop_front();
     if (produce == 0) continue;
     const Cycles written = start + Cycles(stage.latency_);
-    Stage::Firing& firing = stage.pipe_[stage.entered_++ & stage.pipe_mask_];
-    firing.start = start;
-    firing.left = written;
-    firing.produce = produce;
-    firing.wait = StageActivity::kBlocked;
-    firing.room = nullptr;
-    firing.frame = stage.frame_number_;
+    stage.enter_pipeline(start, produce).left = written;
     if (pending) {
       --member.claimed_pending;
       continue;

@@ -165,12 +165,7 @@ bool Stage::fire() {
   frame_->last_firing = start;
   free_ = start + Cycles(phase.interval);
   if (phase.produce != 0) {
-    Firing& firing = pipe_[entered_++ & pipe_mask_];
-    firing.start = firing.left = start;
-    firing.produce = phase.produce;
-    firing.wait = StageActivity::kBlocked;
-    firing.room = nullptr;
-    firing.frame = frame_number_;
+    Firing& firing = enter_pipeline(start, phase.produce);
     if (latency_ == 0) {
       ++left_;
       write(firing, start);
@@ -207,12 +202,7 @@ bool Stage::fire_writers() {
     }
     free_ = start + interval;
     starts_[(statistics_.firings + fired) % kStartsKept] = start;
-    Firing& firing = pipe_[entered_++ & pipe_mask_];
-    firing.start = firing.left = start;
-    firing.produce = phase.produce;
-    firing.wait = StageActivity::kBlocked;
-    firing.room = nullptr;
-    firing.frame = frame_number_;
+    enter_pipeline(start, phase.produce);
     if (frame_->first_write < Cycles(0)) frame_->first_write = start;
     stream->mark_written(start, Cycles(0));
   }

@@ -123,6 +123,15 @@ class Stage : public sc_core::sc_module, public Actor {
 
   bool fire();
   bool fire_writers();
+  Firing& enter_pipeline(Cycles start, PortMask produce) {
+    Firing& firing = pipe_[entered_++ & pipe_mask_];
+    firing.start = firing.left = start;
+    firing.produce = produce;
+    firing.wait = StageActivity::kBlocked;
+    firing.room = nullptr;
+    firing.frame = frame_number_;
+    return firing;
+  }
   bool can_fire() const;
   void drain();
   bool write(Firing& firing, Cycles earliest);
