@@ -13,6 +13,7 @@
 #include "tests/cli/program.hpp"
 #include "tests/timing/in_child.hpp"
 #include "tests/traces/wave.hpp"
+#include "traces/date_order.hpp"
 #include "traces/recorder.hpp"
 #include "traces/vcd_trace.hpp"
 
@@ -88,7 +89,7 @@ void run_model(const std::string& file) {
   (*sink.in)(*streams.back());
 
   std::ofstream out(file, std::ios::binary);
-  VcdTrace vcd([&out](std::string_view text) { out << text; });
+  DateOrder vcd(std::make_unique<VcdTrace>([&out](std::string_view text) { out << text; }));
   Pace pace("pace");
   RecorderConfig config;
   config.tokens = true;
