@@ -164,8 +164,8 @@ void StageTrace::begin_row(Cycles start) {
   const ScheduleRow& row = schedule_row();
   const bool last = row_ + 1 == schedule_.rows.size();
   row_end_ = last ? schedule_.firings : schedule_.rows[row_ + 1].firing;
-  // The next row's entry, which nobody has looked at for a frame, is on its way when it is wanted.
-  __builtin_prefetch(&row + 4);
+  // The entry of a row some rows on, which nobody has looked at for a frame, is on its way when it is wanted.
+  __builtin_prefetch(&schedule_.rows[std::min(row_ + 4, schedule_.rows.size() - 1)]);
   waits_.clear();
   current_ = {};
   current_.stage = id_;

@@ -3,10 +3,13 @@
 #include "tlm/stage.hpp"
 
 #include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
 
+#include <sstream>
 #include <stdexcept>
 
 #include "tests/timing/firing_log.hpp"
+#include "tests/timing/in_child.hpp"
 #include "tests/timing/model_simulation.hpp"
 #include "tests/timing/statistics_text.hpp"
 
@@ -135,6 +138,40 @@ TEST(Stage, AForkWritesBothOrNeither) {
   EXPECT_EQ(dates[2].written, dates[1].written);
   EXPECT_EQ(model.stream(1).statistics().blocked_on_full.count(), 0);
   EXPECT_EQ(model.stage(1).statistics().blocked.count(), 11 - 3);
+}
+
+// Firings that only write are gone through in one go where they write one stream, and one by one where they
+// write two: with a second one that never holds anybody back, all is the same.
+RC_GTEST_PROP(StageWriters, InOneGoAsOneByOne, ()) {
+  const auto number = [](std::uint32_t from, std::uint32_t to) {
+    return *rc::gen::inRange<std::uint32_t>(from, to + 1);
+  };
+  const std::uint32_t frames = number(1, 6);
+  const std::uint32_t first = number(0, 1);  // whether the firing that reads writes, too
+  const std::uint32_t words = number(1, 12);
+  const std::uint32_t others = number(0, 3);
+  const GraphNode burst =
+      stage(0, {{1, {{1, number(1, 3), 1, static_cast<PortMask>(first)}, {words, number(1, 3), 0, 1}}},
+                {others, {{1, 2, 0, 0}, {2, 1, 0, 1}}}});
+  std::vector<std::uint32_t> in, out;
+  for (std::uint32_t i = 0; i < frames; ++i) in.push_back(number(0, 9));
+  for (std::uint32_t i = 0; i < frames * (first + words + 2 * others); ++i) {
+    out.push_back(number(0, 3) == 0 ? number(0, 30) : number(0, 2));
+  }
+  Graph one = chain(in, burst, out, number(1, 8));
+  Graph two = one;
+  two.nodes.push_back(sink(zeros(out.size())));
+  two.edges.push_back({1, 0, 3, 0, 1024});
+  const auto run = [](const Graph& graph) {
+    return in_child([&graph] {
+      ModelSimulation model(graph, kThreads, 0);
+      const std::vector<EdgeDates> dates = model.run();
+      std::ostringstream text;
+      for (const std::int64_t date : dates[1].written) text << date << " ";
+      return text.str() + statistics_text(model.stage(1)) + statistics_text(model.stream(1));
+    });
+  };
+  RC_ASSERT(run(one) == run(two));
 }
 
 TEST(Stage, TwoOutputsOfDifferentRates) {
