@@ -13,9 +13,9 @@ enum class PixelFormat {
   kMono8,         ///< 1 byte
   kMono12Packed,  ///< 12 bit, two pixels in three bytes, low bits first: b0 = p0[7:0], b1 = p0[11:8] |
                   ///< p1[3:0] << 4, b2 = p1[11:4]
-  kMono12,  ///< 12 bit in the low bits of two bytes, low byte first
-  kRgb8,    ///< 3 bytes: red, green, blue
-  kBayer8,  ///< 1 byte of one colour
+  kMono12,        ///< 12 bit in the low bits of two bytes, low byte first
+  kRgb8,          ///< 3 bytes: red, green, blue
+  kBayer8,        ///< 1 byte of one colour
 };
 
 /// Bits that a pixel takes: 8, 12, 16, 24.

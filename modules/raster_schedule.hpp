@@ -58,7 +58,8 @@ std::uint64_t look_ahead_pixels(const StageContext& context, int rows, int pixel
 
 /// The schedule of one frame. After the last pixel is in, the pixels still held back come out one in
 /// `interval` cycles (one in beats * interval where every beat writes). Row overhead follows the last pixel
-/// of a row read, and, where the look-ahead is the frame, of a row written; frame overhead the last pixel written.
+/// of a row read, and, where the look-ahead is the frame, of a row written; frame overhead the last pixel
+/// written.
 Schedule make_schedule(const StageContext& context, const RasterSchedule& raster);
 
 }  // namespace parallax

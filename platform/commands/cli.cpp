@@ -23,7 +23,7 @@
 #include "platform/commands/scene_command.hpp"
 #include "platform/commands/validate_command.hpp"
 #include "platform/config/nearest_name.hpp"
-#include "platform/version.hpp"
+#include "platform/results/version.hpp"
 #include "tlm/error.hpp"
 
 namespace parallax {

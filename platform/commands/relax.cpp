@@ -9,12 +9,12 @@
 #include "platform/commands/interruption.hpp"
 #include "platform/commands/timing_inputs.hpp"
 #include "platform/config/preset.hpp"
-#include "platform/relaxation.hpp"
+#include "platform/evaluation/relaxation.hpp"
+#include "platform/evaluation/relaxed_limits.hpp"
+#include "platform/evaluation/standby_evaluator.hpp"
 #include "platform/results/output_folder.hpp"
 #include "platform/results/progress.hpp"
-#include "platform/results/relaxed_limits.hpp"
 #include "platform/results/result_names.hpp"
-#include "platform/standby_evaluator.hpp"
 
 namespace parallax {
 namespace {

@@ -5,9 +5,9 @@
 #include <memory>
 #include <tuple>
 
+#include "platform/evaluation/timing_evaluator.hpp"
 #include "platform/input/frame_source.hpp"
 #include "platform/input/run_options.hpp"
-#include "platform/timing_evaluator.hpp"
 
 namespace parallax {
 

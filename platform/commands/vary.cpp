@@ -15,10 +15,10 @@
 #include "platform/config/nearest_name.hpp"
 #include "platform/config/preset.hpp"
 #include "platform/config/preset_file.hpp"
+#include "platform/evaluation/timing_evaluator.hpp"
 #include "platform/results/output_folder.hpp"
 #include "platform/results/progress.hpp"
 #include "platform/results/result_names.hpp"
-#include "platform/timing_evaluator.hpp"
 #include "tlm/error.hpp"
 
 namespace parallax {

@@ -14,7 +14,8 @@ void describe(Schema& schema, SoftwareConfig& config) {
       fitted("paper, table 1: with margins that contain the disparity range, wide images leave no room for "
              "more, and 800x592 with 256 disparities needs this much"));
   schema.integer("software.register_ns", config.register_ns, {0, 1'000'000}, "ns",
-                 "Time of one access to a register of the core. Those that start a frame are part of software.response_ns.",
+                 "Time of one access to a register of the core. Those that start a frame are part of "
+                 "software.response_ns.",
                  chosen("not published; usual for a register behind a processor's peripheral bus"));
   schema.boolean("software.queue_frames", config.queue_frames,
                  "Whether the core is given the next frame while it works on one. Off: when it is done.",

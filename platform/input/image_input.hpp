@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "platform/input/image_pairs.hpp"
-#include "platform/input/stereo_images.hpp"
+#include "platform/scene/stereo_images.hpp"
 
 namespace parallax {
 

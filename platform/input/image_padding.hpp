@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "modules/pixel.hpp"
-#include "platform/input/stereo_images.hpp"
+#include "platform/scene/stereo_images.hpp"
 
 namespace parallax {
 

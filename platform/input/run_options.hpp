@@ -37,7 +37,7 @@ struct RunOptions {
   bool verdict = true;            ///< what limits is found by running without it
   bool relax = false;             ///< timing-only runs with one limit at a time taken away
   std::filesystem::path out;
-  TraceOptions trace;  ///< goes into `out`
+  TraceOptions trace;   ///< goes into `out`
   bool report = false;  ///< a page of HTML in `out`, with what taking away each limit gains
   bool point_cloud = true;
   bool json = false;

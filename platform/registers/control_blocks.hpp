@@ -6,8 +6,8 @@
 #include <systemc>
 #include <vector>
 
-#include "platform/algorithm_parameters.hpp"
 #include "platform/config/machine_config.hpp"
+#include "platform/registers/algorithm_parameters.hpp"
 #include "tlm/bus_master.hpp"
 #include "tlm/register_bank.hpp"
 

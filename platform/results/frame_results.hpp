@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "platform/frame.hpp"
+#include "platform/machine/frame.hpp"
 #include "platform/results/color_scale.hpp"
 #include "platform/results/evaluation.hpp"
 #include "platform/results/output_folder.hpp"

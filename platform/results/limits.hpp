@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "platform/machine.hpp"
+#include "platform/machine/machine.hpp"
 
 namespace parallax {
 

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "platform/machine_rows.hpp"
+#include "platform/machine/machine_rows.hpp"
 #include "platform/results/stage_time.hpp"
 
 namespace parallax {

@@ -9,7 +9,7 @@
 #include "platform/results/limits.hpp"
 #include "platform/results/memory_metrics.hpp"
 #include "platform/results/pipeline_metrics.hpp"
-#include "platform/version.hpp"
+#include "platform/results/version.hpp"
 
 namespace parallax {
 namespace {

@@ -5,10 +5,10 @@
 #include <optional>
 #include <string>
 
-#include "platform/machine.hpp"
+#include "platform/evaluation/relaxed_limits.hpp"
+#include "platform/machine/machine.hpp"
 #include "platform/results/deadlock_report.hpp"
 #include "platform/results/evaluation.hpp"
-#include "platform/results/relaxed_limits.hpp"
 #include "traces/metrics.hpp"
 
 namespace parallax {

@@ -10,7 +10,7 @@
 #include <system_error>
 #include <vector>
 
-#include "platform/version.hpp"
+#include "platform/results/version.hpp"
 #include "tlm/error.hpp"
 
 namespace parallax {

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "platform/machine.hpp"
+#include "platform/machine/machine.hpp"
 #include "platform/results/run_metrics.hpp"
 #include "platform/results/stage_time.hpp"
 

@@ -4,10 +4,10 @@
 
 #include <opencv2/core/mat.hpp>
 
-#include "platform/input/stereo_images.hpp"
 #include "platform/scene/scene_calibration.hpp"
 #include "platform/scene/scene_config.hpp"
 #include "platform/scene/scene_view.hpp"
+#include "platform/scene/stereo_images.hpp"
 
 namespace parallax {
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "platform/machine_rows.hpp"
+#include "platform/machine/machine_rows.hpp"
 
 namespace parallax {
 namespace {

@@ -4,7 +4,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "platform/machine.hpp"
+#include "platform/machine/machine.hpp"
 #include "traces/date_order.hpp"
 #include "traces/frame_profile.hpp"
 #include "traces/recorder.hpp"

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "platform/config/nearest_name.hpp"
-#include "platform/machine_rows.hpp"
+#include "platform/machine/machine_rows.hpp"
 #include "tlm/error.hpp"
 #include "traces/csv_trace.hpp"
 #include "traces/date_order.hpp"

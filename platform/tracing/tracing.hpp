@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "platform/machine.hpp"
+#include "platform/machine/machine.hpp"
 #include "platform/results/output_folder.hpp"
 #include "platform/tracing/trace_options.hpp"
 #include "traces/recorder.hpp"

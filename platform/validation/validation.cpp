@@ -8,10 +8,10 @@
 #include <memory>
 
 #include "platform/config/preset.hpp"
+#include "platform/evaluation/timing_evaluator.hpp"
 #include "platform/input/image_padding.hpp"
 #include "platform/input/rectification_choice.hpp"
 #include "platform/input/run_input.hpp"
-#include "platform/timing_evaluator.hpp"
 #include "tlm/error.hpp"
 
 namespace parallax {

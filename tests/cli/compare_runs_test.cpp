@@ -18,7 +18,8 @@ class CompareRuns : public ::testing::Test {
  protected:
   void SetUp() override {
     ASSERT_EQ(program_("run --timing-only --no-verdict --size 160x128 --out a").code, 0);
-    ASSERT_EQ(program_("run --timing-only --no-verdict --size 160x128 --set clocks.core_hz=150e6 --out b").code, 0);
+    ASSERT_EQ(
+        program_("run --timing-only --no-verdict --size 160x128 --set clocks.core_hz=150e6 --out b").code, 0);
   }
   std::string error(const std::string& arguments) {
     const test::Outcome outcome = program_("compare-runs " + arguments);
@@ -75,7 +76,10 @@ TEST_F(CompareRuns, ARunIsLikeItself) {
 }
 
 TEST_F(CompareRuns, WhatOnlyOneRunHas) {
-  ASSERT_EQ(program_("run --timing-only --no-verdict --size 160x128 --set matching.path_storage=memory --out c").code, 0);
+  ASSERT_EQ(
+      program_("run --timing-only --no-verdict --size 160x128 --set matching.path_storage=memory --out c")
+          .code,
+      0);
   const json tree = json::parse(program_("compare-runs a c --json").out);
   bool found = false;
   for (const json& difference : tree["results"]) {

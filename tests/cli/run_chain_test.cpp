@@ -68,7 +68,8 @@ TEST_P(RunChain, HostReceivesWhatTheKernelsCompute) {
   const std::string scene = fmt::format("scene --size {}x{} --disparities 32 --out in {}", size.width,
                                         size.height, test_case.rectified ? "--rectified" : "");
   ASSERT_EQ(program(scene).code, 0);
-  std::string arguments = "run --no-verdict --left in/left.png --right in/right.png --timing-frames 2 --out out";
+  std::string arguments =
+      "run --no-verdict --left in/left.png --right in/right.png --timing-frames 2 --out out";
   if (!test_case.rectified) arguments += " --calibration in/calib.yml";
   for (const std::string& setting : test_case.settings) arguments += " --set " + setting;
   const test::Outcome outcome = program(arguments);

@@ -58,7 +58,8 @@ TEST_F(TimingOnly, EqualsTheFullRunOfASingleFrame) { expect_same("--size 128x96 
 
 TEST_F(TimingOnly, EqualsTheFullRunOfSecondPassesAndSlowMemory) {
   expect_same(
-      "--size 128x96 -d 32 --set matching.paths=w,nw,n,ne,e,sw,s,se --set memory.model=bus --set memory.bytes_per_cycle=1 "
+      "--size 128x96 -d 32 --set matching.paths=w,nw,n,ne,e,sw,s,se --set memory.model=bus --set "
+      "memory.bytes_per_cycle=1 "
       "--set clocks.memory_hz=60e6 --set rectification.window=41");
 }
 

@@ -25,8 +25,9 @@ class ProgramRun {
  public:
   explicit ProgramRun(const std::string& arguments) {
     const std::string command = std::string(PARALLAX_PROGRAM) + " run " + arguments +
-                                " --timing-frames 2 --no-verdict --no-point-cloud --out " + (folder_ / "out") + " >" +
-                                (folder_ / "stdout") + " 2>" + (folder_ / "stderr");
+                                " --timing-frames 2 --no-verdict --no-point-cloud --out " +
+                                (folder_ / "out") + " >" + (folder_ / "stdout") + " 2>" +
+                                (folder_ / "stderr");
     if (std::system(command.c_str()) != 0) throw std::runtime_error(folder_.read("stderr"));
     results_ = nlohmann::json::parse(folder_.read("out/timing.json"));
   }

@@ -10,7 +10,7 @@
 
 #include "modules/map_codec.hpp"
 #include "platform/config/configuration.hpp"
-#include "platform/machine.hpp"
+#include "platform/machine/machine.hpp"
 #include "platform/results/run_metrics.hpp"
 
 class SlowMemory final : public sc_core::sc_module {
@@ -19,7 +19,8 @@ class SlowMemory final : public sc_core::sc_module {
 
   /// A blocking target does: the socket turns the machine's four phases into calls of it.
   void bind(tlm::tlm_initiator_socket<>& port, const std::string& name) {
-    sockets_.push_back(std::make_unique<tlm_utils::simple_target_socket<SlowMemory>>(("for_" + name).c_str()));
+    sockets_.push_back(
+        std::make_unique<tlm_utils::simple_target_socket<SlowMemory>>(("for_" + name).c_str()));
     sockets_.back()->register_b_transport(this, &SlowMemory::b_transport);
     port.bind(*sockets_.back());
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "platform/camera_trigger.hpp"
+#include "platform/machine/camera_trigger.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "platform/forked_call.hpp"
+#include "platform/evaluation/forked_call.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "platform/forked_workers.hpp"
+#include "platform/evaluation/forked_workers.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "platform/tile_plan.hpp"
+#include "platform/machine/tile_plan.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

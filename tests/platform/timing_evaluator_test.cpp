@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "platform/timing_evaluator.hpp"
+#include "platform/evaluation/timing_evaluator.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>

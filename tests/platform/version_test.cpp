@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "platform/version.hpp"
+#include "platform/results/version.hpp"
 
 #include <gtest/gtest.h>
 

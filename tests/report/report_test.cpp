@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "platform/results/report_file.hpp"
-#include "platform/version.hpp"
+#include "platform/results/version.hpp"
 #include "tests/cli/program.hpp"
 #include "tlm/error.hpp"
 

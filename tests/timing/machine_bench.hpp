@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "platform/config/configuration.hpp"
-#include "platform/machine.hpp"
+#include "platform/machine/machine.hpp"
 #include "tests/modules/random_maps.hpp"
 
 namespace parallax::test {

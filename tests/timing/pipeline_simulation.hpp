@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "platform/pipeline.hpp"
+#include "platform/machine/pipeline.hpp"
 #include "tests/timing/date_log.hpp"
 #include "tests/timing/graph.hpp"
 #include "tests/timing/graph_thread.hpp"

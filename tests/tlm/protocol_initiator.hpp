@@ -69,7 +69,8 @@ class ProtocolInitiator final : public sc_core::sc_module {
   ::tlm::tlm_generic_payload& take(::tlm::tlm_command command, std::uint64_t address, std::size_t length) {
     return pool_.take(command, address, length);
   }
-  /// For a thread: returns when everything sent is answered, at the date of the last answer if that was given ahead.
+  /// For a thread: returns when everything sent is answered, at the date of the last answer if that was given
+  /// ahead.
   void wait_for_all() {
     while (responses.size() < times.size() || responding_ != nullptr) sc_core::wait(moved_);
     const sc_core::sc_time now = sc_core::sc_time_stamp();

@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "platform/machine/acquisition.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "platform/machine/engine_config.hpp"
+#include "platform/machine/when_both.hpp"
+#include "tlm/error.hpp"
+
+namespace parallax {
+namespace {
+
+std::int64_t row_bytes(const MachineConfig& config, const MachineInput& input) {
+  return static_cast<std::int64_t>(bytes_of(config.camera.format, static_cast<std::uint64_t>(input.width)));
+}
+
+// A row takes its pixels and the blanking at the pixel clock, or as long as the cable needs for it.
+SensorConfig sensor_config(const MachineConfig& config, const MachineInput& input) {
+  const std::int64_t read_out = std::int64_t{input.width} + config.camera.row_blanking;
+  const std::int64_t cable =
+      (row_bytes(config, input) * config.clocks.camera_hz + config.camera.bytes_per_second - 1) /
+      config.camera.bytes_per_second;
+  SensorConfig sensor;
+  sensor.width = input.width;
+  sensor.height = input.height;
+  sensor.row = Cycles(std::max(read_out, cable));
+  sensor.frame_blanking = Cycles(config.camera.frame_blanking);
+  sensor.format = config.camera.format;
+  sensor.burst = Bytes(config.dma.camera.burst_bytes);
+  return sensor;
+}
+
+sc_core::sc_time nanoseconds(std::uint32_t number) {
+  return sc_core::sc_time(static_cast<double>(number), sc_core::SC_NS);
+}
+
+}  // namespace
+
+Acquisition::Acquisition(const sc_core::sc_module_name& name, const MachineConfig& config,
+                         const MachineInput& input, const MemoryMap& memory_map, const ClockDomain& clock,
+                         Dataflow& dataflow, Listener listener)
+    : sc_module(name),
+      config_(config),
+      input_(input),
+      memory_map_(memory_map),
+      clock_(clock),
+      listener_(std::move(listener)),
+      left_sensor_("left_sensor", sensor_config(config, input), clock, dataflow),
+      right_sensor_("right_sensor", sensor_config(config, input), clock, dataflow),
+      exposure_(clock.cycle_at_or_after(nanoseconds(config.camera.exposure_ns))),
+      skew_(clock.cycle_at_or_after(nanoseconds(config.camera.skew_ns))),
+      dma_left_("dma_left", engine_config(config.dma.camera), clock),
+      dma_right_("dma_right", engine_config(config.dma.camera), clock),
+      left_bursts_("camera_left_bursts", dataflow, clock, clock, engine_config(config.dma.camera).fifo()),
+      right_bursts_("camera_right_bursts", dataflow, clock, clock, engine_config(config.dma.camera).fifo()),
+      until_fault_(config.camera.fault_every) {
+  if (config.camera.early_start_rows > 0) {
+    left_progress_ = std::make_shared<TransferProgress>(dataflow);
+    right_progress_ = std::make_shared<TransferProgress>(dataflow);
+  }
+  left_sensor_.out_bursts(left_bursts_);
+  right_sensor_.out_bursts(right_bursts_);
+  dma_left_.in_bursts(left_bursts_);
+  dma_right_.in_bursts(right_bursts_);
+  if (config.camera.frame_rate > 0) {
+    trigger_.emplace(config.camera, clock.frequency());
+    const Cycles read_out = left_sensor_.frame_time();
+    const Cycles least = config.camera.overlap ? std::max(exposure_, read_out) : exposure_ + read_out;
+    if (trigger_->period() < least) {
+      const std::string exposing =
+          exposure_ == Cycles(0) ? ""
+                                 : fmt::format(", with {} ns of exposure {} it {}", config.camera.exposure_ns,
+                                               config.camera.overlap ? "beside" : "before", least.count());
+      throw UserError(
+          fmt::format("camera.frame_rate = {}: reading out {}x{} px takes {} pixel clocks{}, which allows at "
+                      "most {:.2f} frames/s",
+                      config.camera.frame_rate, input.width, input.height, read_out.count(), exposing,
+                      1 / clock.seconds(least)));
+    }
+  }
+  SC_HAS_PROCESS(Acquisition);
+  SC_THREAD(expose_frames);
+}
+
+const MemoryMap::FrameBuffer& Acquisition::buffer(std::int64_t frame) const {
+  return memory_map_.frames[static_cast<std::size_t>(frame) % memory_map_.frames.size()];
+}
+
+void Acquisition::release() {
+  if (buffers_used_-- == static_cast<std::int64_t>(memory_map_.frames.size())) {
+    buffer_free_since_ = sc_core::sc_time_stamp();
+  }
+  buffer_free_.notify();
+}
+
+std::uint64_t Acquisition::bursts_before(std::int64_t frame) const {
+  return static_cast<std::uint64_t>(frame) *
+         burst_count(image_job(0, false, input_.height).bytes(), Bytes(config_.dma.camera.burst_bytes));
+}
+
+// Nothing that has to be freed lives on this thread's stack while it waits: it never ends.
+void Acquisition::expose_frames() {
+  if (trigger_) {
+    expose_at_rate();
+  } else {
+    expose_on_demand();
+  }
+}
+
+void Acquisition::expose_on_demand() {
+  for (;;) {
+    wait_for_buffer();
+    clock_.wait_until(next_on_demand());
+    ++counts_.triggers;
+    expose_next();
+    sc_core::wait(frame_complete_);
+    clock_.wait_until(clock_.cycle_at_or_after(exposed_) + left_sensor_.frame_time());
+  }
+}
+
+// End of an exposure that begins as soon as there is a buffer for it and the sensors have ended the one
+// before, or its read-out.
+Cycles Acquisition::next_on_demand() const {
+  Cycles begin = clock_.cycle_at_or_after(buffer_free_since_);
+  if (counts_.triggers > 0) {
+    const Cycles last = clock_.cycle_at_or_after(exposed_);
+    begin = std::max(begin, config_.camera.overlap ? last : last + left_sensor_.frame_time());
+  }
+  return std::max(clock_.now(), begin + exposure_);
+}
+
+// While no buffer is free, nothing happens at the triggers; they are accounted for when one is. So the kernel
+// runs out of events when the machine is stuck.
+void Acquisition::expose_at_rate() {
+  next_ = trigger_->exposed(0);
+  for (;;) {
+    clock_.wait_until(next_);
+    wait_for_buffer();
+    drop_passed();
+    if (next_ > clock_.now()) continue;
+    if (note_trigger()) expose_next();
+  }
+}
+
+void Acquisition::wait_for_buffer() {
+  while (buffers_used_ == static_cast<std::int64_t>(memory_map_.frames.size())) {
+    sc_core::wait(buffer_free_);
+  }
+}
+
+// Triggers before now that have not been taken found no buffer.
+void Acquisition::drop_passed() {
+  while (next_ < clock_.now()) {
+    const Cycles begin = next_;
+    if (!note_trigger()) continue;
+    ++counts_.dropped;
+    left_sensor_.read_out_unheard(begin);
+    right_sensor_.read_out_unheard(begin + skew_);
+  }
+}
+
+// Goes on to the trigger after the next one; whether the sensors took that one.
+bool Acquisition::note_trigger() {
+  const Cycles cycle = next_;
+  next_ = trigger_->exposed(++counts_.triggers);
+  // An exposure that may not overlap the read-out finds the sensors busy when it begins.
+  // That of the first one may begin before the model's time does.
+  const Cycles begin = config_.camera.overlap ? cycle : std::max(Cycles(0), cycle - exposure_);
+  const bool right_free =
+      skew_ == Cycles(0) ? !right_sensor_.reads_out_in(begin) : right_sensor_.free_by(begin + skew_);
+  const bool taken = !left_sensor_.reads_out_in(begin) && right_free;
+  if (!taken) ++counts_.missed;
+  return taken;
+}
+
+CameraCounts Acquisition::counts() {
+  if (trigger_) drop_passed();
+  return counts_;
+}
+
+bool Acquisition::next_is_faulty() {
+  if (config_.camera.fault == CameraFault::kNone || --until_fault_ > 0) return false;
+  until_fault_ = config_.camera.fault_every;
+  return true;
+}
+
+void Acquisition::expose_next() {
+  ++buffers_used_;
+  exposed_ = sc_core::sc_time_stamp();
+  if (next_is_faulty()) {
+    expose_faulty();
+  } else {
+    expose(counts_.taken++);
+  }
+}
+
+DmaJob Acquisition::image_job(std::uint64_t address, bool values, int rows) const {
+  DmaJob job;
+  job.address = address;
+  job.row_bytes.assign(static_cast<std::size_t>(rows),
+                       static_cast<std::uint32_t>(row_bytes(config_, input_)));
+  job.values = values;
+  return job;
+}
+
+void Acquisition::expose(std::int64_t frame) {
+  const StereoFrame images = frame < input_.frames && input_.expose ? input_.expose(frame) : StereoFrame{};
+  listener_.exposed(frame, images.left != nullptr);
+  const std::function<void()> done = when_both([this] { frame_complete_.notify(); });
+  const std::function<void()> enough = when_both([this, frame] { listener_.in_memory(frame); });
+  const auto early = static_cast<std::uint64_t>(config_.camera.early_start_rows);
+  const auto height = static_cast<std::uint64_t>(input_.height);
+  const std::uint64_t waited_for = (early == 0 ? height : std::min(early, height)) *
+                                   static_cast<std::uint64_t>(row_bytes(config_, input_));
+  const auto start = [&](DmaWriter& dma, std::uint64_t address,
+                         const std::shared_ptr<TransferProgress>& progress) {
+    DmaJob job = image_job(address, images.left != nullptr, input_.height);
+    job.marks = {{1, [this, frame] { listener_.begun(frame); }}, {waited_for, enough}};
+    job.done = done;
+    job.progress = progress;
+    dma.start(std::move(job));
+  };
+  start(dma_left_, buffer(frame).left, left_progress_);
+  start(dma_right_, buffer(frame).right, right_progress_);
+  left_sensor_.read_out(images.left);
+  right_sensor_.read_out(images.right, skew_);
+}
+
+// What two images show: how far apart they began, and rows that did not come; when the last byte came early,
+// the frame was short.
+CameraFault Acquisition::found_fault(const Received& left, const Received& right) const {
+  const Cycles limit = clock_.cycle_at_or_after(nanoseconds(config_.camera.skew_limit_ns));
+  if (std::max(left.begin, right.begin) - std::min(left.begin, right.begin) > limit) {
+    return CameraFault::kOutOfStep;
+  }
+  for (const Received& image : {left, right}) {
+    if (image.rows == input_.height) continue;
+    const Cycles last_row = left_sensor_.row_time() * (input_.height - 1);
+    return image.last_byte <= image.begin + last_row ? CameraFault::kShortFrame : CameraFault::kMissingRow;
+  }
+  return CameraFault::kNone;
+}
+
+// Into the buffer that the next good frame will lie in.
+void Acquisition::expose_faulty() {
+  const CameraFault fault = config_.camera.fault;
+  LostRows lost;
+  if (fault != CameraFault::kOutOfStep) {
+    lost.count = std::min(static_cast<int>(config_.camera.fault_rows), input_.height - 1);
+    lost.first =
+        fault == CameraFault::kShortFrame ? input_.height - lost.count : (input_.height - lost.count) / 2;
+  }
+  const auto left = std::make_shared<Received>();
+  const auto right = std::make_shared<Received>();
+  const std::function<void()> done = when_both([this, left, right] {
+    ++counts_.faulty;
+    listener_.faulty(found_fault(*left, *right));
+    release();
+    frame_complete_.notify();
+  });
+  const MemoryMap::FrameBuffer& place = buffer(counts_.taken);
+  DmaJob job = image_job(place.left, false, input_.height - lost.count);
+  job.done = done;
+  dma_left_.start(job);
+  job = image_job(place.right, false, input_.height);
+  job.done = done;
+  dma_right_.start(job);
+  const Cycles late =
+      fault == CameraFault::kOutOfStep
+          ? clock_.cycle_at_or_after(nanoseconds(config_.camera.skew_limit_ns)) * 2 + Cycles(1)
+          : skew_;
+  left_sensor_.read_out(nullptr, Cycles(0), lost, left);
+  right_sensor_.read_out(nullptr, late, {}, right);
+}
+
+}  // namespace parallax

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <systemc>
+#include <tlm>
+
+#include "modules/map_codec.hpp"
+#include "platform/machine/frame.hpp"
+#include "platform/registers/algorithm_parameters.hpp"
+#include "traces/trace_event.hpp"
+
+namespace parallax {
+
+/// What a run of the machine is made of, apart from its configuration.
+struct MachineInput {
+  int width = 0;   ///< px, of the images as they are processed
+  int height = 0;  ///< px
+  const EncodedMap* map = nullptr;
+  std::int64_t frames = 1;
+  bool timing_only = false;  ///< no frame has images, so the memory need not hold any
+  /// Called, if there is one, with the socket of each memory port, to bind it: another memory in the place of
+  /// the machine's own. A TLM-2.0 target that keeps to the base protocol and answers transport_dbg; it must
+  /// hold data unless `timing_only`.
+  std::function<void(::tlm::tlm_initiator_socket<>& socket, const std::string& port)> bind_memory;
+  /// Called, if there is one, once a frame, in order, before software starts the core with it: what software
+  /// writes into the registers of algorithm parameters then, or nothing. What is impossible sets error bits,
+  /// and the frame is processed with the last possible parameters.
+  std::function<std::optional<AlgorithmParameters>(std::int64_t frame)> parameters;
+  /// Called, if there is one, once a frame, in order, when it is exposed. The cameras go on after the last
+  /// one, without images, until the host has all frames, so that every frame meets the traffic of its
+  /// successors.
+  std::function<StereoFrame(std::int64_t frame)> expose;
+  /// Called, if there is one, when a frame comes to a step, at that date: exposed, first byte in memory, in
+  /// memory, core started, results in memory, at the host. Of the frames after the last one, too.
+  std::function<void(std::int64_t frame, FrameStep step)> step;
+  /// Called when the host has all frames; if there is none, the simulation is stopped then (sc_stop).
+  std::function<void()> finished;
+  /// Called, if there is one, once a frame, in order, when the host has it.
+  std::function<void(const FrameResult& result)> deliver;
+};
+
+}  // namespace parallax

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "modules/map_codec.hpp"
+#include "platform/config/machine_config.hpp"
+#include "platform/machine/matcher_store.hpp"
+
+namespace parallax {
+
+/// Where the buffers lie in memory, as MachineConfig::memory_map says.
+struct MemoryMap {
+  struct FrameBuffer {
+    std::uint64_t left;
+    std::uint64_t right;
+  };
+  std::vector<FrameBuffer> frames;     ///< rows of pixels in the cameras' format
+  std::uint64_t map = 0;               ///< the compressed rectification map
+  std::vector<std::uint64_t> outputs;  ///< packed results (modules/output_packing.hpp)
+  std::uint64_t buffer = 0;            ///< MatcherStore, if anything is kept
+};
+
+/// Throws UserError when a buffer does not fit into the memory, or two overlap, with the arithmetic.
+MemoryMap lay_out_memory(const MachineConfig& config, int width, int height, const EncodedMap& map,
+                         const MatcherStore& store);
+
+}  // namespace parallax
