@@ -5,10 +5,12 @@
     golden.py list                       the names of the cases
     golden.py check PROGRAM CASE...      compares; prints the lines that differ; exit 1 if any does
     golden.py record PROGRAM [CASE...]   writes CASE.txt anew (all, if none is named): look at the diff
+    golden.py diff OLD NEW [CASE...]     runs two builds and prints every line that differs, digests spelt out
 
-A record holds a line for each number of each JSON file ("timing.json performance/frame_rate = 100.26 frames/s"), in the
-order of their names, the digest of every other file, and what a command printed. What differs between two runs of one program
-(its own time and memory) and between two builds (revision, wording of descriptions) stays out.
+A line is a number of a JSON file ("timing.json performance/frame_rate = 100.26 frames/s"), the digest of another file, or
+what a command printed. What differs between two runs of one program (its own time and memory) and between two builds
+(revision, wording of descriptions) stays out. A record keeps the headline numbers as lines, and of each further group of numbers
+one digest: `diff` with a build that gives the record says which number it is that differs.
 """
 import difflib
 import hashlib
@@ -23,6 +25,9 @@ HERE = pathlib.Path(__file__).resolve().parent
 # Of this computer, this build, or wording.
 LEFT_OUT = {"run/version", "run/revision", "run/command", "run/wall_time", "run/speed", "run/peak_memory",
             "schema/version", "schema/configuration"}
+# Groups of timing.json that a record keeps number by number.
+HEADLINES = {"run", "input", "camera", "software", "performance", "latency", "limit", "memory", "energy", "quality",
+             "deadlock"}
 # Pictures hold legends and are packed by a library; their numbers are in the files beside them.
 SKIPPED_FILES = {".png", ".gif", ".html"}
 
@@ -58,7 +63,7 @@ CASES = {
     "other_parameters": images("--size", "160x128",
                                *sets("matching.p1=3", "matching.p2=255", "matching.cost_weight=2",
                                      "matching.outside_cost=maximum", "matching.path_start=delay_line",
-                                     "matching.disparity_offset=5", "census.window=7", "camera.format=mono12_packed",
+                                     "matching.disparity_offset=5", "census.window_width=7", "camera.format=mono12_packed",
                                      "link.color_output=true")),
     "sequence": [["scene", "--rectified", "--size", "160x128", "--frames", "3", "--out", "in"],
                  ["run", "--no-verdict", "--input", "in", "--out", "out"]],
@@ -80,8 +85,8 @@ CASES = {
                                                     "memory.bytes_per_cycle=1")),
     "other_device": timing("--size", "320x240", *sets("memory.device=lpddr4-3200-x32", "memory.mapping=rbcg",
                                                       "memory_map.alignment=32768")),
-    "no_link": timing("--size", "320x240", *sets("link.enabled=false", "streams.kind=block_ram")),
-    "asynchronous_fifos": timing("--size", "160x128", *sets("streams.kind=asynchronous",
+    "no_link": timing("--size", "320x240", *sets("link.enabled=false", "streams.default_kind=block_ram")),
+    "asynchronous_fifos": timing("--size", "160x128", *sets("streams.default_kind=asynchronous",
                                                             "streams.synchroniser_stages=3")),
     "eight_paths": timing("--size", "320x240", "--set", EIGHT),
     "slow_matcher": timing("--size", "160x128", *sets("matching.interval=2", "matching.recurrence_latency=5",
@@ -111,9 +116,8 @@ def scalars(tree, path=""):
     """(path, text) of each number or word of a JSON tree; a metric is one, with its unit."""
     if isinstance(tree, dict):
         if "value" in tree and "unit" in tree:
-            yield path, f"{json.dumps(tree['value'])} {tree['unit']}".rstrip()
-            if "window" in tree:
-                yield path + " window", tree["window"]
+            window = f" ({tree['window']})" if tree.get("window") else ""
+            yield path, f"{json.dumps(tree['value'])} {tree['unit']}".rstrip() + window
             return
         for name, child in tree.items():
             yield from scalars(child, f"{path}/{name}" if path else name)
@@ -138,15 +142,36 @@ def digest(data):
     return f"{len(data)} B, SHA-256 {hashlib.sha256(data).hexdigest()[:32]}"
 
 
+def group_of(line):
+    """The group of a JSON file that a line belongs to, or None for a line that a record keeps."""
+    name, _, rest = line.partition(".json ")
+    if not rest or name.endswith("relaxations") or rest.split("/")[0].split(" ")[0] in HEADLINES:
+        return None
+    return f"{name}.json {'/'.join(rest.split(' ')[0].split('/')[:2]) if rest.startswith('st') else rest.split('/')[0].split('[')[0]}"
+
+
+def condensed(lines):
+    """The lines, those of a group as one digest."""
+    kept, groups = [], {}
+    for line in lines:
+        group = group_of(line)
+        if group is None:
+            kept.append(line)
+            continue
+        if group not in groups:
+            kept.append(group)
+        groups.setdefault(group, []).append(line)
+    return [f"{line}: {len(groups[line])} numbers, {digest(chr(10).join(groups[line]).encode())}" if line in groups
+            else line for line in kept]
+
+
 def file_lines(name, data):
     if name.endswith("trace.json"):  # the events; the head names the program's version
         return [f"{name}: {digest(b''.join(line for line in data.splitlines(True) if line.startswith(b'[')))}"]
     if name.endswith("trace.vcd"):
         return [f"{name}: {digest(data[data.index(b'$timescale'):])}"]
     if name.endswith(".json"):
-        lines = json_lines(name, data.decode())
-        # What is one number an event or a row is a digest of all.
-        return lines if len(lines) < 3000 else [f"{name}: {digest(chr(10).join(lines).encode())}"]
+        return json_lines(name, data.decode())
     return [f"{name}: {digest(data)}"]
 
 
@@ -167,31 +192,38 @@ def record(program, case):
         for path in sorted((pathlib.Path(folder) / "out").rglob("*")):
             if path.is_file() and path.suffix not in SKIPPED_FILES:
                 lines += file_lines(str(path.relative_to(pathlib.Path(folder) / "out")), path.read_bytes())
-    return "\n".join(lines) + "\n"
+    return lines
+
+
+def unified(before, after, names):
+    return "\n".join(difflib.unified_diff(before, after, *names, n=0, lineterm=""))
 
 
 def main():
     if len(sys.argv) == 2 and sys.argv[1] == "list":
         print("\n".join(CASES))
         return 0
-    if len(sys.argv) < 3 or sys.argv[1] not in ("check", "record"):
+    builds = {"check": 1, "record": 1, "diff": 2}.get(sys.argv[1] if len(sys.argv) > 1 else "")
+    if builds is None or len(sys.argv) < 2 + builds:
         print(__doc__, file=sys.stderr)
         return 2
-    program, cases = str(pathlib.Path(sys.argv[2]).resolve()), sys.argv[3:] or list(CASES)
+    programs = [str(pathlib.Path(argument).resolve()) for argument in sys.argv[2:2 + builds]]
     failed = 0
-    for case in cases:
-        now = record(program, case)
+    for case in sys.argv[2 + builds:] or list(CASES):
+        now = record(programs[-1], case)
         file = HERE / f"{case}.txt"
         if sys.argv[1] == "record":
-            file.write_text(now)
+            file.write_text("\n".join(condensed(now)) + "\n")
             continue
-        before = file.read_text()
+        if sys.argv[1] == "diff":
+            before, names = record(programs[0], case), programs
+        else:
+            before, now, names = file.read_text().splitlines(), condensed(now), ("recorded", "now")
         if now == before:
-            print(f"{case}: as recorded, {now.count(chr(10))} lines")
+            print(f"{case}: equal, {len(now)} lines")
             continue
         failed += 1
-        print(f"{case}: differs")
-        sys.stdout.writelines(difflib.unified_diff(before.splitlines(True), now.splitlines(True), "recorded", "now", n=0))
+        print(f"{case}: differs\n{unified(before, now, names)}")
     return 1 if failed else 0
 
 
