@@ -8,9 +8,9 @@
 
 #include "platform/commands/command_context.hpp"
 #include "platform/commands/common_options.hpp"
-#include "platform/results/comparison_page.hpp"
+#include "platform/report/comparison_page.hpp"
+#include "platform/report/run_comparison.hpp"
 #include "platform/results/output_file.hpp"
-#include "platform/results/run_comparison.hpp"
 
 namespace parallax {
 namespace {

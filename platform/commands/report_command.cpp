@@ -11,8 +11,8 @@
 #include <system_error>
 
 #include "platform/commands/command_context.hpp"
+#include "platform/report/report_file.hpp"
 #include "platform/results/output_folder.hpp"
-#include "platform/results/report_file.hpp"
 #include "tlm/error.hpp"
 
 namespace parallax {

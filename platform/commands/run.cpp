@@ -20,16 +20,17 @@
 #include "platform/config/preset.hpp"
 #include "platform/evaluation/relaxed_limits.hpp"
 #include "platform/evaluation/standby_evaluator.hpp"
+#include "platform/evaluation/verdict.hpp"
 #include "platform/input/image_padding.hpp"
 #include "platform/input/rectification_choice.hpp"
 #include "platform/input/run_input.hpp"
 #include "platform/machine/machine.hpp"
+#include "platform/report/report_file.hpp"
 #include "platform/results/deadlock_report.hpp"
 #include "platform/results/frame_results.hpp"
 #include "platform/results/limits.hpp"
 #include "platform/results/peak_memory.hpp"
 #include "platform/results/progress.hpp"
-#include "platform/results/report_file.hpp"
 #include "platform/results/result_names.hpp"
 #include "platform/results/run_metrics.hpp"
 #include "platform/results/strip_gif.hpp"
@@ -201,7 +202,7 @@ class Run {
     frame.truth = source_->truth(result.index);
     if (frame.truth) {
       totals_.has_truth = true;
-      totals_.evaluation += evaluate(frame.disparities, size_.width, *frame.truth);
+      totals_.score += score(frame.disparities, size_.width, *frame.truth);
     }
     if (!folder_) return;
     cv::Mat left(padded_, CV_8UC1);

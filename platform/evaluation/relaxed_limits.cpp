@@ -34,11 +34,6 @@ void add_rates(Json& entry, double frame_rate, double latency) {
              "From the end of exposure to the frame's last bit at the host, mean of the steady state.");
 }
 
-std::string spoken(std::string name) {
-  std::replace(name.begin(), name.end(), '_', ' ');
-  return name;
-}
-
 }  // namespace
 
 const RelaxedLimit* RelaxedLimits::limit() const {
@@ -105,25 +100,6 @@ Json to_json(const RelaxedLimits& limits) {
     tree["relaxations"].push_back(entry);
   }
   return tree;
-}
-
-std::string verdict(const Json& base, const RelaxedLimits& limits) {
-  const RelaxedLimit* const found = limits.limit();
-  const std::string part = limiting_part(base);
-  const std::string share =
-      part == "none" ? "" : fmt::format(" at {:.1f} %", number(base, "limit", "utilisation"));
-  if (found == nullptr) {
-    return part == "none"
-               ? "no limit gains anything alone: each frame fills the look-ahead anew, or two are equal"
-               : fmt::format("{} limits{}, and so does another: alone, neither gains", spoken(part), share);
-  }
-  const bool named = relieves(found->relaxation, part);
-  const std::string limiting = named ? part : found->relaxation.name;
-  std::string text = fmt::format("{} limits{}; {} gives {:.1f} fps", spoken(limiting), named ? share : "",
-                                 found->relaxation.remedy, found->frame_rate);
-  if (found->next_part == "none") return text + ", and then no part limits alone";
-  if (found->next_part == part) return text + fmt::format(", and {} still limits", spoken(part));
-  return text + fmt::format(", then {} limits", spoken(found->next_part));
 }
 
 }  // namespace parallax

@@ -38,8 +38,4 @@ RelaxedLimits relaxed_limits(const nlohmann::ordered_json& base, const std::vect
 std::string to_text(const RelaxedLimits& limits);
 nlohmann::ordered_json to_json(const RelaxedLimits& limits);
 
-/// What limits, in one sentence. `base`: as above; it names the part that is at work all the time, where
-/// there is one.
-std::string verdict(const nlohmann::ordered_json& base, const RelaxedLimits& limits);
-
 }  // namespace parallax

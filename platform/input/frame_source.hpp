@@ -8,7 +8,7 @@
 
 #include "platform/input/calibration.hpp"
 #include "platform/input/image_input.hpp"
-#include "platform/results/evaluation.hpp"
+#include "platform/results/ground_truth.hpp"
 #include "platform/scene/scene_config.hpp"
 
 namespace parallax {

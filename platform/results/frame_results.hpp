@@ -8,7 +8,7 @@
 
 #include "platform/machine/frame.hpp"
 #include "platform/results/color_scale.hpp"
-#include "platform/results/evaluation.hpp"
+#include "platform/results/ground_truth.hpp"
 #include "platform/results/output_folder.hpp"
 
 namespace parallax {

@@ -11,7 +11,7 @@
 #include "modules/pixel.hpp"
 #include "platform/results/color_scale.hpp"
 #include "platform/results/disparity_view.hpp"
-#include "platform/results/evaluation.hpp"
+#include "platform/results/ground_truth.hpp"
 #include "platform/results/legend.hpp"
 
 namespace parallax {

@@ -149,26 +149,13 @@ void add_quality(MetricGroup& root, const RunTotals& totals) {
                  "Pixels of the image that have a disparity.", with_images});
   }
   if (totals.has_truth) {
-    for (const Quality& q : totals.evaluation.qualities()) {
+    for (const Quality& q : totals.score.qualities()) {
       quality.add({q.name, q.value, q.unit, q.description, with_images});
     }
   }
 }
 
 }  // namespace
-
-void add_verdict(MetricGroup& root, const std::string& sentence, const RelaxedLimits& limits) {
-  MetricGroup& group = root.group("limit");
-  const std::string window = "a run of the machine without that limit";
-  group.add({"verdict", sentence, "", "What limits, and what taking it away would gain.", window});
-  const RelaxedLimit* const found = limits.limit();
-  group.add({"relaxation", found == nullptr ? std::string("none") : found->relaxation.name, "",
-             "The limit that gains most when it alone is taken away, of those that were tried.", window});
-  group.add({"relaxed_frame_rate", found == nullptr ? limits.frame_rate : found->frame_rate, "frames/s",
-             "Frame rate without it.", window});
-  group.add({"relaxed_part", found == nullptr ? std::string("none") : found->next_part, "",
-             "The part that limits then.", window});
-}
 
 MetricGroup measure(const Machine& machine, const RunTotals& totals, int image_width, int image_height) {
   const SteadyWindow window = steady_window(machine);

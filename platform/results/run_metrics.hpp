@@ -5,10 +5,9 @@
 #include <optional>
 #include <string>
 
-#include "platform/evaluation/relaxed_limits.hpp"
 #include "platform/machine/machine.hpp"
 #include "platform/results/deadlock_report.hpp"
-#include "platform/results/evaluation.hpp"
+#include "platform/results/ground_truth.hpp"
 #include "traces/metrics.hpp"
 
 namespace parallax {
@@ -19,7 +18,7 @@ struct RunTotals {
   std::int64_t pixels = 0;  ///< of the images as given
   std::int64_t valid = 0;   ///< pixels with a disparity
   bool has_truth = false;
-  Evaluation evaluation;                    ///< summed over the frames with ground truth
+  GroundTruthScore score;                   ///< summed over the frames with ground truth
   std::string command;                      ///< that makes the run again
   std::optional<std::uint64_t> scene_seed;  ///< of the built-in scene, when it was the input
   double wall_seconds = 0;
@@ -34,9 +33,6 @@ MetricGroup measure(const Machine& machine, const RunTotals& totals, int image_w
 /// streams until then.
 MetricGroup measure_stuck(const Machine& machine, const Deadlock& deadlock, const RunTotals& totals,
                           int image_width, int image_height);
-
-/// Adds to "limit" what taking limits away has shown.
-void add_verdict(MetricGroup& root, const std::string& sentence, const RelaxedLimits& limits);
 
 /// The summary that a person reads, from that tree.
 std::string summary(const MetricGroup& metrics);

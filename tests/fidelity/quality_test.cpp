@@ -67,8 +67,8 @@ struct Comparison {
 Comparison compare(const StereoScene& scene, const char* region, const char* rival_name,
                    const GroundTruth& truth, const std::vector<Disparity>& ours,
                    const std::vector<Disparity>& theirs) {
-  const Evaluation a = evaluate(ours, truth.width, truth);
-  const Evaluation b = evaluate(theirs, truth.width, truth);
+  const GroundTruthScore a = score(ours, truth.width, truth);
+  const GroundTruthScore b = score(theirs, truth.width, truth);
   const Comparison result = {100 * (a.bad_share(2) - b.bad_share(2)), 100 * (a.coverage() - b.coverage())};
   fmt::print("{:<17} {:<8} {:<20} {:6.1f} {:6.1f} {:+6.1f}   {:5.2f} {:5.2f} {:+6.2f}   {:5.2f} {:5.2f}\n",
              scene.name, region, rival_name, 100 * a.coverage(), 100 * b.coverage(), result.more_coverage,
@@ -140,18 +140,18 @@ TEST(Quality, EachFilterDoesItsPart) {
   MachineConfig config = shipped_config();
   config.texture.enabled = config.gap_interpolation.enabled = config.noise_reduction.enabled = false;
   config.speckle.iterations = 0;
-  const auto score = [&] {
-    return evaluate(run_chain(config, scene->left, scene->right), scene->truth.width, scene->truth);
+  const auto scored = [&] {
+    return score(run_chain(config, scene->left, scene->right), scene->truth.width, scene->truth);
   };
-  const Evaluation matched = score();
+  const GroundTruthScore matched = scored();
   config.texture.enabled = true;
-  const Evaluation textured = score();
+  const GroundTruthScore textured = scored();
   config.speckle.iterations = SpeckleConfig{}.iterations;
-  const Evaluation without_speckles = score();
+  const GroundTruthScore without_speckles = scored();
   config.gap_interpolation.enabled = true;
-  const Evaluation filled = score();
+  const GroundTruthScore filled = scored();
   config.noise_reduction.enabled = true;
-  const Evaluation smooth = score();
+  const GroundTruthScore smooth = scored();
   EXPECT_LE(textured.valid, matched.valid);
   EXPECT_LT(without_speckles.bad_share(2), textured.bad_share(2));
   EXPECT_GT(filled.coverage(), without_speckles.coverage());

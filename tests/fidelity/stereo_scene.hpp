@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "platform/results/evaluation.hpp"
+#include "platform/results/ground_truth.hpp"
 
 namespace parallax::test {
 

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "platform/results/report_file.hpp"
+#include "platform/report/report_file.hpp"
 #include "platform/results/version.hpp"
 #include "tests/cli/program.hpp"
 #include "tlm/error.hpp"

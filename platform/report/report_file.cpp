@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "platform/results/report_file.hpp"
+#include "platform/report/report_file.hpp"
 
 #include <fmt/format.h>
 
@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "platform/config/preset.hpp"
+#include "platform/report/run_report.hpp"
 #include "platform/results/result_images.hpp"
-#include "platform/results/run_report.hpp"
 #include "platform/validation/published_row.hpp"
 #include "platform/validation/validation.hpp"
 #include "tlm/error.hpp"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "platform/results/run_report.hpp"
+#include "platform/report/run_report.hpp"
 
 namespace parallax {
 

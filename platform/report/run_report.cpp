@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "platform/results/run_report.hpp"
+#include "platform/report/run_report.hpp"
 
 #include <fmt/format.h>
 

@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "platform/results/run_comparison.hpp"
-#include "platform/results/run_report.hpp"
+#include "platform/report/run_comparison.hpp"
+#include "platform/report/run_report.hpp"
 
 namespace parallax {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "platform/results/evaluation.hpp"
+#include "platform/results/ground_truth.hpp"
 
 #include <cstdlib>
 #include <fstream>
@@ -77,13 +77,13 @@ GroundTruth read_ground_truth(const std::string& path, const std::string& mask_p
   return result;
 }
 
-Evaluation evaluate(const std::vector<Disparity>& disparity, int width, const GroundTruth& truth) {
+GroundTruthScore score(const std::vector<Disparity>& disparity, int width, const GroundTruth& truth) {
   if (width != truth.width || disparity.size() != truth.disparity.size()) {
     const int height = width > 0 ? static_cast<int>(disparity.size()) / width : 0;
     throw UserError("the ground truth is " + size_text(truth.width, truth.height) + ", the disparities are " +
                     size_text(width, height));
   }
-  Evaluation result;
+  GroundTruthScore result;
   result.pixels = static_cast<std::int64_t>(disparity.size());
   for (std::size_t i = 0; i < disparity.size(); ++i) {
     if (!truth.scored(i)) continue;
@@ -92,26 +92,28 @@ Evaluation evaluate(const std::vector<Disparity>& disparity, int width, const Gr
     ++result.valid;
     const int error = truth.error(i, disparity[i]);
     result.absolute_error += error;
-    for (int limit = 1; limit <= Evaluation::kLimits; ++limit) {
+    for (int limit = 1; limit <= GroundTruthScore::kLimits; ++limit) {
       result.bad[static_cast<std::size_t>(limit - 1)] += error > limit * GroundTruth::kStepsPerPixel;
     }
   }
   return result;
 }
 
-double Evaluation::coverage() const { return share(valid, scored); }
+double GroundTruthScore::coverage() const { return share(valid, scored); }
 
-double Evaluation::bad_share(int limit) const {
+double GroundTruthScore::bad_share(int limit) const {
   return share(bad.at(static_cast<std::size_t>(limit - 1)), valid);
 }
 
-double Evaluation::bad_share_all(int limit) const {
+double GroundTruthScore::bad_share_all(int limit) const {
   return share(bad.at(static_cast<std::size_t>(limit - 1)) + scored - valid, scored);
 }
 
-double Evaluation::mean_error() const { return share(absolute_error, valid) / GroundTruth::kStepsPerPixel; }
+double GroundTruthScore::mean_error() const {
+  return share(absolute_error, valid) / GroundTruth::kStepsPerPixel;
+}
 
-Evaluation& Evaluation::operator+=(const Evaluation& other) {
+GroundTruthScore& GroundTruthScore::operator+=(const GroundTruthScore& other) {
   pixels += other.pixels;
   scored += other.scored;
   valid += other.valid;
@@ -120,7 +122,7 @@ Evaluation& Evaluation::operator+=(const Evaluation& other) {
   return *this;
 }
 
-std::vector<Quality> Evaluation::qualities() const {
+std::vector<Quality> GroundTruthScore::qualities() const {
   std::vector<Quality> result = {
       {"scored_pixels", "Pixels with a known true disparity that the mask selects.", "px",
        static_cast<double>(scored)},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "platform/results/comparison_page.hpp"
+#include "platform/report/comparison_page.hpp"
 
 #include <fmt/format.h>
 

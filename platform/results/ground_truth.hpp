@@ -41,7 +41,7 @@ struct Quality {
 };
 
 /// How a disparity image compares with the ground truth.
-struct Evaluation {
+struct GroundTruthScore {
   static constexpr int kLimits = 3;  ///< bad-1, bad-2, bad-3
 
   std::int64_t pixels = 0;                     ///< of the image
@@ -51,7 +51,7 @@ struct Evaluation {
   std::int64_t absolute_error = 0;             ///< sum over valid ones, 1/256 px
 
   /// Adds another image's counts.
-  Evaluation& operator+=(const Evaluation& other);
+  GroundTruthScore& operator+=(const GroundTruthScore& other);
 
   /// Shares in 0..1; 0 if there is nothing to share.
   double coverage() const;
@@ -63,6 +63,6 @@ struct Evaluation {
 };
 
 /// Throws UserError if the sizes differ.
-Evaluation evaluate(const std::vector<Disparity>& disparity, int width, const GroundTruth& truth);
+GroundTruthScore score(const std::vector<Disparity>& disparity, int width, const GroundTruth& truth);
 
 }  // namespace parallax

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "platform/results/evaluation.hpp"
+#include "platform/results/ground_truth.hpp"
 
 #include <gtest/gtest.h>
 
@@ -104,7 +104,7 @@ constexpr Disparity kNone = {kInvalidDisparity, Cause::kUniqueness};
 
 Disparity pixels(double value) { return {static_cast<std::uint16_t>(value * 16), Cause::kMatched}; }
 
-TEST(Evaluation, CountsWhatIsScoredValidAndBad) {
+TEST(GroundTruthScore, CountsWhatIsScoredValidAndBad) {
   // Truth 10 px everywhere it is known; a limit is exceeded, not met, to be bad.
   const std::vector<Disparity> disparity = {pixels(10),   pixels(11), pixels(11.0625), pixels(12.5),
                                             pixels(13.5), pixels(6),  kNone,           kNone,
@@ -112,7 +112,7 @@ TEST(Evaluation, CountsWhatIsScoredValidAndBad) {
   GroundTruth truth{10, 1, std::vector<std::uint16_t>(10, 10 * 256), std::vector<std::uint8_t>(10, 255)};
   truth.disparity[8] = 0;  // unknown
   truth.mask[9] = 128;     // occluded
-  const Evaluation result = evaluate(disparity, 10, truth);
+  const GroundTruthScore result = score(disparity, 10, truth);
   EXPECT_EQ(result.pixels, 10);
   EXPECT_EQ(result.scored, 8);
   EXPECT_EQ(result.valid, 6);
@@ -123,26 +123,26 @@ TEST(Evaluation, CountsWhatIsScoredValidAndBad) {
   EXPECT_DOUBLE_EQ(result.mean_error(), (0 + 1 + 1.0625 + 2.5 + 3.5 + 4) / 6);
 }
 
-TEST(Evaluation, WithoutAMaskAllKnownPixelsAreScored) {
+TEST(GroundTruthScore, WithoutAMaskAllKnownPixelsAreScored) {
   const GroundTruth truth{2, 2, {256, 0, 512, 65535}, {}};
-  const Evaluation result = evaluate({pixels(1), pixels(1), kNone, {4094, Cause::kMatched}}, 2, truth);
+  const GroundTruthScore result = score({pixels(1), pixels(1), kNone, {4094, Cause::kMatched}}, 2, truth);
   EXPECT_EQ(result.scored, 3);
   EXPECT_EQ(result.valid, 2);
   EXPECT_EQ(result.bad[0], 0);
 }
 
-TEST(Evaluation, NothingToScoreGivesZeros) {
+TEST(GroundTruthScore, NothingToScoreGivesZeros) {
   const GroundTruth truth{2, 1, {0, 0}, {}};
-  const Evaluation result = evaluate({pixels(1), kNone}, 2, truth);
+  const GroundTruthScore result = score({pixels(1), kNone}, 2, truth);
   EXPECT_EQ(result.coverage(), 0);
   EXPECT_EQ(result.bad_share(1), 0);
   EXPECT_EQ(result.bad_share_all(3), 0);
   EXPECT_EQ(result.mean_error(), 0);
 }
 
-TEST(Evaluation, NamesEachNumber) {
+TEST(GroundTruthScore, NamesEachNumber) {
   const GroundTruth truth{2, 1, {256, 256}, {}};
-  const std::vector<Quality> qualities = evaluate({pixels(3.5), kNone}, 2, truth).qualities();
+  const std::vector<Quality> qualities = score({pixels(3.5), kNone}, 2, truth).qualities();
   std::vector<std::string> names;
   std::map<std::string, double> values;
   for (const Quality& quality : qualities) {
@@ -161,10 +161,10 @@ TEST(Evaluation, NamesEachNumber) {
                                       "bad_1_all", "bad_2", "bad_2_all", "bad_3", "bad_3_all"}));
 }
 
-TEST(Evaluation, RejectsAnotherSize) {
+TEST(GroundTruthScore, RejectsAnotherSize) {
   const GroundTruth truth{2, 2, {0, 0, 0, 0}, {}};
   try {
-    evaluate({kNone, kNone, kNone}, 3, truth);
+    score({kNone, kNone, kNone}, 3, truth);
     FAIL();
   } catch (const UserError& error) {
     EXPECT_STREQ(error.what(), "the ground truth is 2x2, the disparities are 3x1");

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "platform/evaluation/verdict.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace parallax {
+namespace {
+
+std::string spoken(std::string name) {
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
+
+}  // namespace
+
+std::string verdict(const nlohmann::ordered_json& base, const RelaxedLimits& limits) {
+  const RelaxedLimit* const found = limits.limit();
+  const std::string part =
+      base.contains("limit") ? base.at("limit").at("part").at("value").get<std::string>() : "none";
+  const std::string share =
+      part == "none"
+          ? ""
+          : fmt::format(" at {:.1f} %", base.at("limit").at("utilisation").at("value").get<double>());
+  if (found == nullptr) {
+    return part == "none"
+               ? "no limit gains anything alone: each frame fills the look-ahead anew, or two are equal"
+               : fmt::format("{} limits{}, and so does another: alone, neither gains", spoken(part), share);
+  }
+  const bool named = relieves(found->relaxation, part);
+  const std::string limiting = named ? part : found->relaxation.name;
+  std::string text = fmt::format("{} limits{}; {} gives {:.1f} fps", spoken(limiting), named ? share : "",
+                                 found->relaxation.remedy, found->frame_rate);
+  if (found->next_part == "none") return text + ", and then no part limits alone";
+  if (found->next_part == part) return text + fmt::format(", and {} still limits", spoken(part));
+  return text + fmt::format(", then {} limits", spoken(found->next_part));
+}
+
+void add_verdict(MetricGroup& root, const std::string& sentence, const RelaxedLimits& limits) {
+  MetricGroup& group = root.group("limit");
+  const std::string window = "a run of the machine without that limit";
+  group.add({"verdict", sentence, "", "What limits, and what taking it away would gain.", window});
+  const RelaxedLimit* const found = limits.limit();
+  group.add({"relaxation", found == nullptr ? std::string("none") : found->relaxation.name, "",
+             "The limit that gains most when it alone is taken away, of those that were tried.", window});
+  group.add({"relaxed_frame_rate", found == nullptr ? limits.frame_rate : found->frame_rate, "frames/s",
+             "Frame rate without it.", window});
+  group.add({"relaxed_part", found == nullptr ? std::string("none") : found->next_part, "",
+             "The part that limits then.", window});
+}
+
+}  // namespace parallax
