@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "tests/cli/program.hpp"
+#include "tests/paths.hpp"
 
 namespace parallax {
 namespace {
@@ -62,7 +63,7 @@ std::string on_terminal(const test::Program& program, const std::vector<const ch
   const pid_t child = ::forkpty(&terminal, nullptr, nullptr, nullptr);
   if (child == 0) {
     std::vector<char*> argv;
-    std::string name = PARALLAX_PROGRAM;
+    std::string name = test::program_path();
     argv.push_back(name.data());
     for (const char* argument : arguments) argv.push_back(const_cast<char*>(argument));
     argv.push_back(nullptr);

@@ -17,6 +17,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/paths.hpp"
 #include "tests/platform/temporary_folder.hpp"
 
 namespace parallax::test {
@@ -60,7 +61,7 @@ class Program {
 
   pid_t start(const std::string& arguments, const std::function<void()>& prepare = {}) const {
     std::istringstream words(arguments);
-    std::vector<std::string> list{PARALLAX_PROGRAM};
+    std::vector<std::string> list{program_path()};
     for (std::string word; words >> word;) list.push_back(word == "''" ? "" : word);
     std::vector<char*> argv;
     for (std::string& word : list) argv.push_back(word.data());

@@ -13,19 +13,19 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "tests/paths.hpp"
 #include "tests/platform/temporary_folder.hpp"
 
 namespace parallax::test {
 namespace {
 
 namespace fs = std::filesystem;
-const std::string kSource = PARALLAX_SOURCE_DIR;
 
 int run_in(const TemporaryFolder& folder, const std::string& command, std::string& output) {
   folder.write("command", command);
   const std::string line =
       fmt::format("cd '{}' && PATH='{}':\"$PATH\" bash ./command > output 2>&1 < /dev/null",
-                  folder.path().string(), fs::path(PARALLAX_PROGRAM).parent_path().string());
+                  folder.path().string(), fs::path(program_path()).parent_path().string());
   const int status = std::system(line.c_str());
   output = folder.read("output");
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
@@ -51,7 +51,7 @@ TEST(Readme, EveryCommandRunsAndPrintsWhatIsShown) {
 #endif
   const TemporaryFolder folder;
   std::size_t count = 0;
-  for (const FencedBlock& block : fenced_blocks(read_text(kSource + "/README.md"))) {
+  for (const FencedBlock& block : fenced_blocks(read_text(source_path("README.md")))) {
     if (block.language == "sh") {
       EXPECT_EQ(block.note.rfind("not run: ", 0), 0u)
           << "README.md:" << block.line << ": an sh block needs a comment that says why no test runs it";
@@ -79,12 +79,12 @@ TEST(Readme, LinesAreComparedByTextAndNumbers) {
 
 TEST(Readme, ItsCodeIsWhatTheTestsCompile) {
   std::size_t count = 0;
-  for (const char* file : {"/README.md", "/tlm/README.md", "/modules/README.md"}) {
-    for (const FencedBlock& block : fenced_blocks(read_text(kSource + file))) {
+  for (const char* file : {"README.md", "tlm/README.md", "modules/README.md"}) {
+    for (const FencedBlock& block : fenced_blocks(read_text(source_path(file)))) {
       if (block.language != "cpp" && block.language != "cmake") continue;
       std::string code;
       for (const std::string& line : block.lines) code += line + "\n";
-      EXPECT_NE(read_text(kSource + "/" + block.note).find(code), std::string::npos)
+      EXPECT_NE(read_text(source_path(block.note)).find(code), std::string::npos)
           << file << ":" << block.line << " is not a part of " << block.note;
       ++count;
     }
@@ -118,7 +118,7 @@ TEST(Readme, TheGlossaryNamesEveryMetricAndNoOther) {
       run_in(folder, "parallax run --size 96x64 --set streams.left_output.depth=4 --json 2>stuck", output),
       1);
   collect(nlohmann::json::parse(output), "", units);
-  const std::vector<GlossaryEntry> glossary = glossary_of(read_text(kSource + "/README.md"));
+  const std::vector<GlossaryEntry> glossary = glossary_of(read_text(source_path("README.md")));
   for (const auto& [name, unit] : units) {
     const auto entry = std::find_if(glossary.begin(), glossary.end(),
                                     [&, metric = name](const auto& e) { return matches(e.name, metric); });
@@ -135,10 +135,12 @@ TEST(Readme, TheGlossaryNamesEveryMetricAndNoOther) {
 
 TEST(Readme, LinksLeadSomewhere) {
   const std::regex link("\\]\\(([^)#:]+)\\)");
-  for (const char* folder : {"", "tlm/", "modules/", "platform/", "platform/presets/", "traces/", "tests/"}) {
-    const std::string text = read_text(kSource + "/" + folder + "README.md");
+  const std::vector<std::string> folders{"",        "tlm/",  "modules/", "platform/", "platform/presets/",
+                                         "traces/", "tests/"};
+  for (const std::string& folder : folders) {
+    const std::string text = read_text(source_path(folder + "README.md"));
     for (std::sregex_iterator i(text.begin(), text.end(), link), end; i != end; ++i) {
-      EXPECT_TRUE(fs::exists(fs::path(kSource) / folder / (*i)[1].str()))
+      EXPECT_TRUE(fs::exists(source_path(folder + (*i)[1].str())))
           << folder << "README.md links to " << (*i)[1];
     }
   }

@@ -15,6 +15,7 @@
 #include "platform/results/disparity_bin.hpp"
 #include "tests/cli/program.hpp"
 #include "tests/fidelity/stereo_chain.hpp"
+#include "tests/paths.hpp"
 
 namespace parallax {
 namespace {
@@ -77,8 +78,7 @@ TEST_P(RunChain, HostReceivesWhatTheKernelsCompute) {
 
   ConfigurationRequest request;
   request.assignments = test_case.settings;
-  const MachineConfig config =
-      load_configuration(request, {std::filesystem::path(PARALLAX_SOURCE_DIR) / "platform/presets"}).machine;
+  const MachineConfig config = load_configuration(request, {test::source_path("platform/presets")}).machine;
   const auto read = [&](const std::string& name) {
     return cv::imread((program / name).string(), cv::IMREAD_UNCHANGED);
   };

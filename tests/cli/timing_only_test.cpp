@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/program.hpp"
+#include "tests/paths.hpp"
 
 namespace parallax {
 namespace {
@@ -71,7 +72,7 @@ TEST_F(TimingOnly, EqualsTheFullRunOfFiles) {
 }
 
 TEST_F(TimingOnly, EqualsTheFullRunOfALargeRealPair) {
-  const std::string folder = PARALLAX_SOURCE_DIR "/../shared/data/euroc_v101/";
+  const std::string folder = test::shared_data("euroc_v101/");
   if (!std::filesystem::exists(folder + "calib.yml")) GTEST_SKIP() << "no stereo data here";
   expect_same("--timing-frames 2 -d 64 --left " + folder + "left_00.png --right " + folder +
               "right_00.png --fit --calibration " + folder + "calib.yml");

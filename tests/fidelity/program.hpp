@@ -12,22 +12,18 @@
 #include <stdexcept>
 #include <string>
 
+#include "tests/paths.hpp"
 #include "tests/platform/temporary_folder.hpp"
 
 namespace parallax::test {
-
-inline std::string shared_path(const std::string& name) {
-  return std::string(PARALLAX_SOURCE_DIR) + "/../shared/data/" + name;
-}
 
 /// One `parallax run`; its results live as long as the object.
 class ProgramRun {
  public:
   explicit ProgramRun(const std::string& arguments) {
-    const std::string command = std::string(PARALLAX_PROGRAM) + " run " + arguments +
-                                " --timing-frames 2 --no-verdict --no-point-cloud --out " +
-                                (folder_ / "out") + " >" + (folder_ / "stdout") + " 2>" +
-                                (folder_ / "stderr");
+    const std::string command =
+        program_path() + " run " + arguments + " --timing-frames 2 --no-verdict --no-point-cloud --out " +
+        (folder_ / "out") + " >" + (folder_ / "stdout") + " 2>" + (folder_ / "stderr");
     if (std::system(command.c_str()) != 0) throw std::runtime_error(folder_.read("stderr"));
     results_ = nlohmann::json::parse(folder_.read("out/timing.json"));
   }

@@ -6,6 +6,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "tests/fidelity/program.hpp"
+#include "tests/paths.hpp"
 
 namespace parallax::test {
 namespace {
@@ -37,7 +38,7 @@ Figures figures(const cv::Mat& disparity, const cv::Mat& truth, const cv::Mat& m
 class ProgramQuality : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(ProgramQuality, FiguresEqualAnIndependentEvaluation) {
-  const std::string folder = shared_path(GetParam()) + "/";
+  const std::string folder = shared_data(GetParam()) + "/";
   const cv::Mat truth = cv::imread(folder + "disp_gt.png", cv::IMREAD_UNCHANGED);
   if (truth.empty()) GTEST_SKIP() << "no stereo data here";
   const ProgramRun run("--left " + folder + "left.png --right " + folder + "right.png --ground-truth " +

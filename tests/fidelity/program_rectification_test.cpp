@@ -6,6 +6,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "tests/fidelity/program.hpp"
+#include "tests/paths.hpp"
 #include "tests/platform/test_calibrations.hpp"
 
 namespace parallax::test {
@@ -51,7 +52,7 @@ void expect_rectified(const std::string& left, const std::string& right, const s
 
 /// One pixel of this pair's right map lies just beyond the device's window of 79.
 TEST(ProgramRectification, ChessboardPair) {
-  const std::string folder = shared_path("opencv_chessboard01/");
+  const std::string folder = shared_data("opencv_chessboard01/");
   if (!std::filesystem::exists(folder + "calib.yml")) GTEST_SKIP() << "no stereo data here";
   expect_rectified(folder + "left.png", folder + "right.png", folder + "calib.yml",
                    "--set rectification.window=81");
@@ -59,7 +60,7 @@ TEST(ProgramRectification, ChessboardPair) {
 
 /// OpenCV's default rectification of this pair reaches further than 39 rows: here with a larger window.
 TEST(ProgramRectification, FlyingCamera) {
-  const std::string folder = shared_path("euroc_v101/");
+  const std::string folder = shared_data("euroc_v101/");
   if (!std::filesystem::exists(folder + "calib.yml")) GTEST_SKIP() << "no stereo data here";
   const std::string left = folder + "left_00.png";
   const std::string right = folder + "right_00.png";

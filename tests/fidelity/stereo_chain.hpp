@@ -16,12 +16,13 @@
 #include "modules/texture.hpp"
 #include "modules/uniqueness.hpp"
 #include "platform/config/configuration.hpp"
+#include "tests/paths.hpp"
 
 namespace parallax::test {
 
 /// The shipped preset, as the program runs it.
 inline MachineConfig shipped_config() {
-  return load_configuration({}, {std::string(PARALLAX_SOURCE_DIR) + "/platform/presets"}).machine;
+  return load_configuration({}, {source_path("platform/presets")}).machine;
 }
 
 inline std::vector<CensusCode> census_of(const CensusConfig& config, const cv::Mat& image) {

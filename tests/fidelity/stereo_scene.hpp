@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "platform/results/ground_truth.hpp"
+#include "tests/paths.hpp"
 
 namespace parallax::test {
 
@@ -27,7 +28,7 @@ struct StereoScene {
 /// A scene of the development data set beside the sources, if it is there: left.png, right.png, disp_gt.png,
 /// mask_nocc.png.
 inline std::optional<StereoScene> shared_scene(const std::string& name, int disparities) {
-  const std::string folder = std::string(PARALLAX_SOURCE_DIR) + "/../shared/data/" + name + "/";
+  const std::string folder = shared_data(name + "/");
   if (!std::filesystem::exists(folder + "disp_gt.png")) return std::nullopt;
   StereoScene scene;
   scene.name = name;

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "modules/pixel.hpp"
-#include "tlm/error.hpp"
 
 namespace parallax {
 
@@ -142,17 +141,6 @@ void expect_matches_reference(const Config& config, const Reference& reference) 
       }
     }
   }
-}
-
-/// The line a user reads about a bad configuration; empty if it is accepted.
-template <class Config>
-std::string complaint(const Config& config) {
-  try {
-    config.validate();
-  } catch (const UserError& error) {
-    return error.what();
-  }
-  return {};
 }
 
 }  // namespace test

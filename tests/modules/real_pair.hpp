@@ -13,12 +13,13 @@
 #include "modules/subpixel.hpp"
 #include "modules/uniqueness.hpp"
 #include "tests/modules/images.hpp"
+#include "tests/paths.hpp"
 
 namespace parallax::test {
 
 /// An empty image if there is no such file.
 inline cv::Mat load_shared(const std::string& name, int flags = cv::IMREAD_GRAYSCALE) {
-  return cv::imread(PARALLAX_SOURCE_DIR "/../shared/data/" + name, flags);
+  return cv::imread(shared_data(name), flags);
 }
 
 inline Grid<Gray> to_grid(const cv::Mat& image) {

@@ -6,6 +6,7 @@
 
 #include "tests/modules/disparity_image.hpp"
 #include "tests/modules/naive_speckle.hpp"
+#include "tests/modules/user_error.hpp"
 
 namespace parallax::test {
 namespace {

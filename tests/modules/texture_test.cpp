@@ -8,6 +8,8 @@
 
 #include "tests/modules/disparity_image.hpp"
 #include "tests/modules/naive_texture.hpp"
+#include "tests/modules/user_error.hpp"
+#include "tests/paths.hpp"
 
 namespace parallax::test {
 namespace {
@@ -101,8 +103,7 @@ TEST(Texture, LargestImage) {
 }
 
 TEST(Texture, RealImage) {
-  const cv::Mat gray = cv::imread(
-      std::string(PARALLAX_SOURCE_DIR) + "/../shared/data/kitti2012_000000/left.png", cv::IMREAD_GRAYSCALE);
+  const cv::Mat gray = cv::imread(shared_data("kitti2012_000000/left.png"), cv::IMREAD_GRAYSCALE);
   if (gray.empty()) GTEST_SKIP() << "no stereo data here";
   GrayImage image(gray.cols, gray.rows);
   std::copy(gray.begin<Gray>(), gray.end<Gray>(), image.pixels.begin());

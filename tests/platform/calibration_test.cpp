@@ -5,6 +5,7 @@
 
 #include <opencv2/calib3d.hpp>
 
+#include "tests/paths.hpp"
 #include "tests/platform/test_calibrations.hpp"
 
 namespace parallax {

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "platform/commands/cli.hpp"
+#include "tests/paths.hpp"
 #include "tests/platform/temporary_folder.hpp"
 
 namespace parallax {
@@ -20,7 +21,7 @@ struct Outcome {
 
 class ConfigCommand : public ::testing::Test {
  protected:
-  ConfigCommand() { ::setenv("PARALLAX_PRESET_PATH", PARALLAX_SOURCE_DIR "/platform/presets", 1); }
+  ConfigCommand() { ::setenv("PARALLAX_PRESET_PATH", test::source_path("platform/presets").c_str(), 1); }
 
   static Outcome run(std::vector<const char*> arguments) {
     arguments.insert(arguments.begin(), "parallax");
@@ -116,8 +117,8 @@ TEST_F(ConfigCommand, HelpAndVersionAreNoErrors) {
 /// The program itself: nothing but our line on standard error, not even SystemC's notice.
 TEST_F(ConfigCommand, TheProgramPrintsOneLineAndExitsWithTwo) {
   TemporaryFolder folder;
-  const std::string command = std::string(PARALLAX_PROGRAM) + " config --set matching.p1=900 >" +
-                              (folder / "out") + " 2>" + (folder / "err");
+  const std::string command =
+      test::program_path() + " config --set matching.p1=900 >" + (folder / "out") + " 2>" + (folder / "err");
   const int status = std::system(command.c_str());
   EXPECT_EQ(WEXITSTATUS(status), 2);
   EXPECT_EQ(folder.read("out"), "");
@@ -127,7 +128,7 @@ TEST_F(ConfigCommand, TheProgramPrintsOneLineAndExitsWithTwo) {
 
 TEST_F(ConfigCommand, TheProgramReportsAFullDiskBehindStandardOutput) {
   TemporaryFolder folder;
-  const std::string command = std::string(PARALLAX_PROGRAM) + " config >/dev/full 2>" + (folder / "err");
+  const std::string command = test::program_path() + " config >/dev/full 2>" + (folder / "err");
   const int status = std::system(command.c_str());
   EXPECT_EQ(WEXITSTATUS(status), 2);
   EXPECT_EQ(folder.read("err"), "parallax: error: cannot write to standard output\n");

@@ -8,13 +8,14 @@
 #include "platform/config/preset.hpp"
 #include "platform/config/preset_file.hpp"
 #include "platform/config/schema.hpp"
+#include "tests/paths.hpp"
 #include "tests/platform/error_of.hpp"
 #include "tests/platform/temporary_folder.hpp"
 
 namespace parallax {
 namespace {
 
-const std::filesystem::path kShipped = PARALLAX_SOURCE_DIR "/platform/presets";
+const std::filesystem::path kShipped = test::source_path("platform/presets");
 
 Configuration load(const std::vector<std::string>& assignments) {
   return load_configuration({"scenescan-pro", assignments, {}}, {kShipped});

@@ -13,6 +13,7 @@
 #include "modules/map_codec.hpp"
 #include "modules/rectification.hpp"
 #include "platform/input/map_fit.hpp"
+#include "tests/paths.hpp"
 #include "tests/platform/test_calibrations.hpp"
 
 namespace parallax {

@@ -13,6 +13,7 @@
 #include "platform/config/dram_device.hpp"
 #include "platform/config/preset.hpp"
 #include "platform/input/address_trace.hpp"
+#include "tests/paths.hpp"
 #include "tests/platform/error_of.hpp"
 #include "tests/platform/temporary_folder.hpp"
 #include "tlm/error.hpp"
@@ -145,7 +146,7 @@ TEST_F(MemoryCommand, OptionsOutOfRange) {
 TEST_F(MemoryCommand, ADeviceOfOnesOwn) {
   const std::string device =
       write("description = \"slow\"\ninherits = \"ddr3-1066-x32\"\n[dram]\ncl = 9\n", "slow.toml");
-  EXPECT_EQ(load_dram_device(device, {PARALLAX_SOURCE_DIR "/platform/presets"}).cl, 9);
+  EXPECT_EQ(load_dram_device(device, {test::source_path("platform/presets")}).cl, 9);
   const std::string wrong = write("description = \"\"\n[dram]\ntCL = 9\n", "wrong.toml");
   EXPECT_NE(error_of([&] { load_dram_device(wrong, {}); }).find("dram.tCL"), std::string::npos);
   DramTiming timing;
@@ -169,7 +170,7 @@ TEST_F(MemoryCommand, ADeviceOfOnesOwn) {
 
 // The median of three public cycle-accurate simulators, where the reference is there.
 TEST(MemoryReference, BandwidthLatencyAndRowHits) {
-  const std::string folder = PARALLAX_SOURCE_DIR "/../shared/data/dram/";
+  const std::string folder = test::shared_data("dram/");
   std::ifstream reference(folder + "reference.csv");
   if (!reference) GTEST_SKIP() << "no reference data";
   const std::map<std::string, const char*> devices{{"x32", "ddr3-1066-x32"}, {"x64", "ddr3-1600-x64"}};
@@ -181,7 +182,7 @@ TEST(MemoryReference, BandwidthLatencyAndRowHits) {
     std::vector<std::string> fields;
     for (std::string field; std::getline(in, field, ',');) fields.push_back(field);
     const DramTiming timing =
-        load_dram_device(devices.at(fields[0]), {PARALLAX_SOURCE_DIR "/platform/presets"});
+        load_dram_device(devices.at(fields[0]), {test::source_path("platform/presets")});
     const ReplayResult result = replay(read_address_trace(folder + fields[1] + ".csv.gz"), timing, {},
                                        DramMapping::kRowBankColumn, 16);
     const double seconds = static_cast<double>(result.clocks * timing.clock_period_ps) * 1e-12;

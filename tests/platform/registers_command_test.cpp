@@ -6,6 +6,7 @@
 #include "platform/registers/register_map.hpp"
 #include "tests/cli/program.hpp"
 #include "tests/cli/readme.hpp"
+#include "tests/paths.hpp"
 #include "tests/platform/temporary_folder.hpp"
 
 namespace parallax::test {
@@ -14,7 +15,7 @@ namespace {
 TEST(RegistersCommand, TheCheckedInTableIsWhatItPrints) {
   const Outcome outcome = Program()("registers --markdown");
   EXPECT_EQ(outcome.code, 0) << outcome.err;
-  EXPECT_EQ(outcome.out, read_text(PARALLAX_SOURCE_DIR "/platform/REGISTERS.md"))
+  EXPECT_EQ(outcome.out, read_text(source_path("platform/REGISTERS.md")))
       << "run: parallax registers --markdown > platform/REGISTERS.md";
 }
 

@@ -17,10 +17,6 @@
 
 namespace parallax::test {
 
-inline std::string shared_data(const std::string& name) {
-  return std::string(PARALLAX_SOURCE_DIR "/../shared/data/") + name;
-}
-
 /// The line of the UserError that `run` throws; empty if it throws none.
 inline std::string message(const std::function<void()>& run) {
   try {

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "tests/cli/program.hpp"
+#include "tests/paths.hpp"
 
 namespace parallax::test {
 namespace {
@@ -23,7 +24,7 @@ bool has_browser() {
 // What the browser saw of one page.
 Json open(const std::filesystem::path& page, const std::string& options = "") {
   const std::string command =
-      "/usr/bin/python3 " PARALLAX_SOURCE_DIR "/tests/report/browser.py " + options + " " + page.string();
+      "/usr/bin/python3 " + source_path("tests/report/browser.py") + " " + options + " " + page.string();
   std::FILE* const pipe = popen(command.c_str(), "r");
   std::string text;
   std::array<char, 65536> buffer;

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdio>
 
+#include "tests/paths.hpp"
 #include "tests/timing/model_simulation.hpp"
 #include "tlm/deadlock.hpp"
 
@@ -195,7 +196,7 @@ struct Ended {
 
 Ended run_program(const std::string& options) {
   Ended ended;
-  const std::string command = std::string(PARALLAX_PROGRAM) + " run " + options + " 2>&1";
+  const std::string command = program_path() + " run " + options + " 2>&1";
   FILE* pipe = popen(command.c_str(), "r");
   std::array<char, 4096> buffer{};
   while (fgets(buffer.data(), static_cast<int>(buffer.size()), pipe) != nullptr) ended.text += buffer.data();

@@ -10,6 +10,7 @@
 #include "platform/config/configuration.hpp"
 #include "platform/machine/machine.hpp"
 #include "tests/modules/random_maps.hpp"
+#include "tests/paths.hpp"
 
 namespace parallax::test {
 
@@ -17,7 +18,7 @@ namespace parallax::test {
 inline MachineConfig preset(const std::vector<std::string>& assignments = {}) {
   ConfigurationRequest request;
   request.assignments = assignments;
-  return load_configuration(request, {PARALLAX_SOURCE_DIR "/platform/presets"}).machine;
+  return load_configuration(request, {source_path("platform/presets")}).machine;
 }
 
 /// Takes every limit away but the pipeline: memory, cameras and their buses take no time that counts, and

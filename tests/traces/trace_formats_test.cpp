@@ -9,6 +9,7 @@
 #include <set>
 #include <sstream>
 
+#include "tests/paths.hpp"
 #include "tests/traces/database.hpp"
 #include "tests/traces/wave.hpp"
 
@@ -224,7 +225,7 @@ struct Tracks {
 class PerfettoFormat : public TraceFormats {
  protected:
   Tracks tracks() const {
-    return Tracks(output_of("protoc --decode=Trace -I " PARALLAX_SOURCE_DIR "/tests/traces events.proto <" +
+    return Tracks(output_of("protoc --decode=Trace -I " + source_path("tests/traces") + " events.proto <" +
                             (program_ / "out/trace.pftrace").string()));
   }
 };

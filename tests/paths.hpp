@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where things lie that a test reads or starts. Only paths.cpp knows, so that the other objects are the same
+// in every checkout, and a compiler cache finds them again.
+#pragma once
+
+#include <string>
+
+namespace parallax::test {
+
+/// `name` in the checkout that was built, for example "platform/presets".
+std::string source_path(const std::string& name);
+
+/// `name` in the development data beside the checkout, which need not be there.
+std::string shared_data(const std::string& name);
+
+/// The program `parallax` of this build.
+std::string program_path();
+
+}  // namespace parallax::test
