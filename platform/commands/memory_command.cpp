@@ -75,8 +75,8 @@ std::string text(const MetricGroup& group) {
   std::string lines;
   for (const Metric& metric : group.metrics) {
     const std::string value = std::holds_alternative<double>(metric.value)
-                                  ? fmt::format("{:.4f}", std::get<double>(metric.value))
-                                  : fmt::format("{}", std::get<std::int64_t>(metric.value));
+                                  ? fmt::format("{:.4f}", metric.number())
+                                  : fmt::format("{}", metric.count());
     lines +=
         fmt::format("{:16} {:>14}{}{}\n", metric.name, value, metric.unit.empty() ? "" : " ", metric.unit);
   }

@@ -244,7 +244,7 @@ class Run {
   // reported, all the others.
   // Says no when it was interrupted.
   bool judge(MetricGroup& metrics, const std::function<bool()>& interrupted) {
-    if (!standby_ || std::get<double>(metrics.at("performance/frame_rate").value) == 0) return true;
+    if (!standby_ || metrics.number("performance/frame_rate") == 0) return true;
     const nlohmann::ordered_json base = to_json(metrics);
     const std::string part = base.at("limit").at("part").at("value");
     std::vector<Relaxation> left = relaxations(configuration_.machine, base);

@@ -66,23 +66,24 @@ std::vector<ReportImage> images_of(const fs::path& folder) {
 }
 
 // Whether the run is of the row's machine: preset, size, and what the row sets.
-bool is_of(const PublishedRow& row, const Json& timing) {
-  const auto input = [&](const char* name) { return timing.at("input").at(name).at("value").get<int>(); };
-  if (row.width != input("width") || row.height != input("height")) return false;
+bool is_of(const PublishedRow& row, const RunReport& report) {
+  const MetricGroup& input = report.metrics.group_at("input");
+  if (row.width != input.count("width") || row.height != input.count("height")) return false;
   return std::all_of(row.assignments.begin(), row.assignments.end(), [&](const std::string& assignment) {
     const std::size_t equals = assignment.find('=');
     std::string path = "/" + assignment.substr(0, equals);
     std::replace(path.begin(), path.end(), '.', '/');
     const Json::json_pointer pointer(path);
-    if (!timing.at("configuration").contains(pointer)) return false;
-    const Json& value = timing.at("configuration").at(pointer);
+    if (!report.configuration.contains(pointer)) return false;
+    const Json& value = report.configuration.at(pointer);
     return (value.is_string() ? value.get<std::string>() : value.dump()) == assignment.substr(equals + 1);
   });
 }
 
-std::vector<BudgetLine> budget_of(const Json& timing) {
+std::vector<BudgetLine> budget_of(const RunReport& report) {
   std::vector<BudgetLine> budget;
-  const std::string preset = timing.at("configuration").value("preset", "");
+  const bool has_rate = report.metrics.find_group("performance") != nullptr;
+  const std::string preset = report.configuration.value("preset", "");
   for (const std::string& name : published_row_files()) {
     const PublishedRows file = read_published_rows(name, preset_folders());
     for (const PublishedRow& row : file.rows) {
@@ -90,7 +91,7 @@ std::vector<BudgetLine> budget_of(const Json& timing) {
       BudgetLine line{row.name, row.source, row.metric, row.unit, row.published, {}};
       const std::size_t slash = line.metric.rfind('/');
       if (slash != std::string::npos) line.metric.erase(0, slash + 1);
-      if (timing.contains("performance") && is_of(row, timing)) line.reached = predicted(row, timing);
+      if (has_rate && is_of(row, report)) line.reached = predicted(row, report.metrics);
       budget.push_back(std::move(line));
     }
   }
@@ -102,16 +103,19 @@ std::vector<BudgetLine> budget_of(const Json& timing) {
 std::string report_of(const fs::path& folder) {
   const RunReport report = read_run_report(folder.string());
   ReportInput input;
-  input.timing = report.tree;
+  input.metrics = report.metrics;
+  input.configuration = report.configuration;
   input.profile = read_result_json((folder / "profile.json").string());
   input.relaxations = read_result_json((folder / "relaxations.json").string());
   try {
     input.images = images_of(folder);
-    input.budget = budget_of(input.timing);
+    input.budget = budget_of(report);
     return report_page(input);
+  } catch (const MetricError& error) {
+    throw UserError(fmt::format("{}: its timing.json or relaxations.json is damaged, {}; run parallax again",
+                                folder.string(), error.what()));
   } catch (const Json::exception&) {
-    // Each number that is missing or of another kind; which of the three files has it is not worth a check of
-    // its own.
+    // What is no metric: the configuration, the profile, the list of relaxations.
     throw UserError(
         fmt::format("{}: its timing.json, profile.json or relaxations.json is damaged; run parallax again",
                     folder.string()));

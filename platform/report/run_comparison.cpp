@@ -23,24 +23,34 @@ struct Leaf {
 };
 using Leaves = std::vector<std::pair<std::string, Leaf>>;
 
-bool is_metric(const Json& tree) {
-  return tree.is_object() && tree.contains("value") && tree.contains("unit");
-}
-
-void gather(const Json& tree, const std::string& path, Leaves& leaves) {
-  if (is_metric(tree)) {
-    leaves.push_back({path, {tree.at("value"), tree.at("unit").is_string() ? tree.at("unit") : ""}});
-  } else if (tree.is_object()) {
-    for (const auto& [name, child] : tree.items())
-      gather(child, path.empty() ? name : path + "/" + name, leaves);
-  } else {
-    leaves.push_back({path, {tree, ""}});
+void gather_keys(const Json& tree, const std::string& path, Leaves& leaves) {
+  for (const auto& [name, child] : tree.items()) {
+    if (child.is_object()) {
+      gather_keys(child, path + name + "/", leaves);
+    } else {
+      leaves.push_back({path + name, {child, ""}});
+    }
   }
 }
 
-Leaves leaves_of(const Json& tree) {
+void gather_metrics(const MetricGroup& group, const std::string& path, Leaves& leaves) {
+  for (const Metric& metric : group.metrics)
+    leaves.push_back({path + metric.name, {to_json(metric).at("value"), metric.unit}});
+  for (const MetricGroup& child : group.groups) gather_metrics(child, path + child.name + "/", leaves);
+}
+
+// All but those of this computer.
+Leaves results_of(const RunReport& report) {
   Leaves leaves;
-  gather(tree, "", leaves);
+  gather_metrics(report.metrics, "", leaves);
+  const auto is_of_run = [](const auto& leaf) { return leaf.first.rfind("run/", 0) == 0; };
+  leaves.erase(std::remove_if(leaves.begin(), leaves.end(), is_of_run), leaves.end());
+  return leaves;
+}
+
+Leaves configuration_of(const RunReport& report) {
+  Leaves leaves;
+  gather_keys(report.configuration, "", leaves);
   return leaves;
 }
 
@@ -63,11 +73,6 @@ std::vector<Difference> differences(const Leaves& a, const Leaves& b) {
     if (of_b.count(name) > 0) all.push_back({name, nullptr, leaf.value, leaf.unit});
   }
   return all;
-}
-
-Json without(Json tree, std::initializer_list<const char*> groups) {
-  for (const char* group : groups) tree.erase(group);
-  return tree;
 }
 
 std::string text_of(const Json& value, const std::string& unit) {
@@ -137,14 +142,8 @@ Json to_json(const std::vector<Difference>& all) {
 
 RunComparison compare(const RunReport& a, const RunReport& b) {
   RunComparison comparison{a.path, b.path, {}, {}};
-  const auto configuration = [](const RunReport& report) {
-    return report.tree.contains("configuration") ? leaves_of(report.tree.at("configuration")) : Leaves{};
-  };
-  comparison.configuration = differences(configuration(a), configuration(b));
-  const auto results = [](const RunReport& report) {
-    return leaves_of(without(report.tree, {"run", "configuration"}));
-  };
-  comparison.results = differences(results(a), results(b));
+  comparison.configuration = differences(configuration_of(a), configuration_of(b));
+  comparison.results = differences(results_of(a), results_of(b));
   return comparison;
 }
 

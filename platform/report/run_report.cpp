@@ -8,7 +8,7 @@
 #include <fstream>
 #include <iterator>
 #include <system_error>
-#include <vector>
+#include <utility>
 
 #include "platform/results/version.hpp"
 #include "tlm/error.hpp"
@@ -26,6 +26,26 @@ std::string read(const fs::path& path) {
   return text;
 }
 
+UserError damaged(const fs::path& file, const char* what) {
+  return UserError(fmt::format("{}: damaged, {}; run parallax again", file.string(), what));
+}
+
+RunReport report_in(const fs::path& file, nlohmann::ordered_json tree) {
+  RunReport report{file.string(), {}, nlohmann::ordered_json::object()};
+  const auto configuration = tree.find("configuration");
+  if (configuration == tree.end() || !configuration->is_object())
+    throw MetricError("it has no configuration");
+  report.configuration = std::move(*configuration);
+  tree.erase(configuration);
+  report.metrics = metrics_of(tree);
+  // A stuck machine reached no frame rate.
+  const bool stuck = report.metrics.find_group("deadlock") != nullptr;
+  for (const char* group : {"input", "stages", "streams"}) report.metrics.group_at(group);
+  if (stuck) return report;
+  for (const char* group : {"performance", "latency", "memory", "energy"}) report.metrics.group_at(group);
+  return report;
+}
+
 }  // namespace
 
 RunReport read_run_report(const std::string& path) {
@@ -40,38 +60,28 @@ RunReport read_run_report(const std::string& path) {
   } else if (!fs::exists(file, error)) {
     throw UserError(fmt::format("{}: no such file or folder", path));
   }
-  RunReport report{file.string(), nlohmann::ordered_json::parse(read(file), nullptr, false)};
-  const auto& tree = report.tree;
-  if (tree.is_discarded()) {
-    throw UserError(fmt::format("{}: damaged, this is no JSON; run parallax again", report.path));
-  }
+  const auto tree = nlohmann::ordered_json::parse(read(file), nullptr, false);
+  if (tree.is_discarded()) throw damaged(file, "this is no JSON");
   const nlohmann::ordered_json::json_pointer version_path("/run/version/value");
   if (!tree.is_object() || !tree.contains(version_path) || !tree.at(version_path).is_string()) {
-    throw UserError(fmt::format("{}: no timing.json of parallax, it has no run/version", report.path));
+    throw UserError(fmt::format("{}: no timing.json of parallax, it has no run/version", file.string()));
   }
   if (const std::string by = tree.at(version_path); by != version()) {
     throw UserError(
-        fmt::format("{}: written by version {}, this is {}; run it again", report.path, by, version()));
+        fmt::format("{}: written by version {}, this is {}; run it again", file.string(), by, version()));
   }
-  // A stuck machine reached no frame rate.
-  const bool stuck = tree.contains("deadlock");
-  const std::vector<const char*> groups =
-      stuck ? std::vector<const char*>{"input", "deadlock", "stages", "streams", "configuration"}
-            : std::vector<const char*>{"input",  "performance", "latency", "memory",
-                                       "stages", "streams",     "energy",  "configuration"};
-  for (const char* group : groups) {
-    if (tree.contains(group) && tree.at(group).is_object()) continue;
-    throw UserError(fmt::format("{}: damaged, it has no {}; run parallax again", report.path, group));
+  try {
+    return report_in(file, tree);
+  } catch (const MetricError& damage) {
+    throw damaged(file, damage.what());
   }
-  return report;
 }
 
 nlohmann::ordered_json read_result_json(const std::string& path) {
   std::error_code error;
   if (!fs::exists(path, error)) return nullptr;
   auto tree = nlohmann::ordered_json::parse(read(path), nullptr, false);
-  if (tree.is_discarded() || !tree.is_object())
-    throw UserError(fmt::format("{}: damaged, this is no JSON; run parallax again", path));
+  if (tree.is_discarded() || !tree.is_object()) throw damaged(path, "this is no JSON");
   return tree;
 }
 

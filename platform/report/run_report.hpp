@@ -4,12 +4,15 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "traces/metrics.hpp"
+
 namespace parallax {
 
 /// What a run has left behind: its timing.json.
 struct RunReport {
-  std::string path;             ///< of the file
-  nlohmann::ordered_json tree;  ///< as it is written (traces/metrics.hpp), with "configuration"
+  std::string path;  ///< of the file
+  MetricGroup metrics;
+  nlohmann::ordered_json configuration;  ///< by section and key
 };
 
 /// `path`: a folder of results, or the file itself. Throws UserError when there is none, when it is damaged,

@@ -14,24 +14,11 @@
 namespace parallax {
 namespace {
 
-double number(const MetricGroup& metrics, const std::string& path) {
-  const auto& value = metrics.at(path).value;
-  if (const auto* whole = std::get_if<std::int64_t>(&value)) return static_cast<double>(*whole);
-  return std::get<double>(value);
-}
-
-std::string word(const MetricGroup& metrics, const std::string& path) {
-  return std::get<std::string>(metrics.at(path).value);
-}
-
 std::string memory_lines(const MetricGroup& m) {
   std::string text;
   std::vector<std::string> ports;
-  for (const MetricGroup& group : m.groups) {
-    if (group.name != "memory") continue;
-    for (const MetricGroup& port : group.groups) {
-      if (port.find("bytes_per_frame") != nullptr) ports.push_back(port.name);
-    }
+  for (const MetricGroup& port : m.group_at("memory").groups) {
+    if (port.find("bytes_per_frame") != nullptr) ports.push_back(port.name);
   }
   text += fmt::format("  {:<18}{:>9}  {:>8}  {:>10}  {:>16}  {:>6}  {:>7}\n", "port", "MB/s", "bus",
                       "B a frame", "latency, ns mean", "p95", "largest");
@@ -40,31 +27,31 @@ std::string memory_lines(const MetricGroup& m) {
     const std::string path = "memory/" + port + "/";
     const std::string name = port == "map" ? "rectification map" : port;
     const std::string share =
-        m.find(path + "share") == nullptr ? "-" : fmt::format("{:.2f} %", number(m, path + "share"));
+        m.find(path + "share") == nullptr ? "-" : fmt::format("{:.2f} %", m.number(path + "share"));
     text += fmt::format("  {:<18}{:>9.1f}  {:>8}  {:>10.0f}  {:>16.0f}  {:>6.0f}  {:>7.0f}\n", name,
-                        number(m, path + "bandwidth"), share, number(m, path + "bytes_per_frame"),
-                        number(m, path + "latency_mean"), number(m, path + "latency_p95"),
-                        number(m, path + "latency_largest"));
+                        m.number(path + "bandwidth"), share, m.number(path + "bytes_per_frame"),
+                        m.number(path + "latency_mean"), m.number(path + "latency_p95"),
+                        m.number(path + "latency_largest"));
   }
   return text;
 }
 
 // What limits, and the keys that move it.
 std::string limit_lines(const MetricGroup& m) {
-  if (number(m, "performance/frame_rate") == 0) return "";  // one frame has no steady state
+  if (m.number("performance/frame_rate") == 0) return "";  // one frame has no steady state
   std::string text;
   if (m.find("limit/verdict") != nullptr)
-    text = fmt::format("verdict             {}\n", word(m, "limit/verdict"));
-  if (word(m, "limit/part") == "none") {
+    text = fmt::format("verdict             {}\n", m.word("limit/verdict"));
+  if (m.word("limit/part") == "none") {
     return text + fmt::format(
                       "limit               no part is at work all the time; the busiest, {}, is at {:.1f} %; "
                       "look at {}, "
                       "and at the look-ahead that each frame fills anew\n",
-                      word(m, "limit/next_part"), number(m, "limit/utilisation"), word(m, "limit/key"));
+                      m.word("limit/next_part"), m.number("limit/utilisation"), m.word("limit/key"));
   }
   return text + fmt::format("limit               {} at {:.1f} % of the time ({}); next {} at {:.1f} fps\n",
-                            word(m, "limit/part"), number(m, "limit/utilisation"), word(m, "limit/key"),
-                            word(m, "limit/next_part"), number(m, "limit/next_frame_rate"));
+                            m.word("limit/part"), m.number("limit/utilisation"), m.word("limit/key"),
+                            m.word("limit/next_part"), m.number("limit/next_frame_rate"));
 }
 
 constexpr std::int64_t kBar = 50;  // characters
@@ -88,29 +75,24 @@ std::string pipeline_lines(const MetricGroup& m) {
   std::string text =
       "time                # busy, e upstream empty, f downstream full, m memory, s synchroniser, . "
       "blanking\n";
-  const std::string limit = m.find("limit/part") == nullptr ? "" : word(m, "limit/part");
+  const std::string limit = m.find("limit/part") == nullptr ? "" : m.word("limit/part");
   const auto mark = [&limit](const std::string& part) { return part == limit ? "  limits" : ""; };
   const auto whole = [&](const std::string& part) {
     const std::string path = "limit/utilisation_by_part/" + part;
     if (m.find(path) == nullptr) return;
-    const std::int64_t busy = thousandths(number(m, path));
+    const std::int64_t busy = thousandths(m.number(path));
     text += fmt::format("  {:<18}{} {:>5.1f} %{}\n", part, bar({{'#', busy}, {' ', thousandths(100) - busy}}),
-                        number(m, path), mark(part));
+                        m.number(path), mark(part));
   };
   whole("camera");
   whole("memory");
   whole("core");
-  for (const MetricGroup& group : m.groups) {
-    if (group.name != "stages") continue;
-    for (const MetricGroup& stage : group.groups) {
-      std::vector<std::pair<char, std::int64_t>> parts;
-      for (std::size_t i = 0; i < kLetters.size(); ++i) {
-        parts.emplace_back(kLetters.at(i),
-                           static_cast<std::int64_t>(number(stage, name_of(kAllStageActivities[i]))));
-      }
-      text += fmt::format("  {:<18}{} {:>5.1f} %{}\n", stage.name, bar(parts), number(stage, "busy_share"),
-                          mark(stage.name));
-    }
+  for (const MetricGroup& stage : m.group_at("stages").groups) {
+    std::vector<std::pair<char, std::int64_t>> parts;
+    for (std::size_t i = 0; i < kLetters.size(); ++i)
+      parts.emplace_back(kLetters.at(i), stage.count(name_of(kAllStageActivities[i])));
+    text += fmt::format("  {:<18}{} {:>5.1f} %{}\n", stage.name, bar(parts), stage.number("busy_share"),
+                        mark(stage.name));
   }
   whole("link");
   whole("host");
@@ -119,71 +101,66 @@ std::string pipeline_lines(const MetricGroup& m) {
 
 std::string energy_line(const MetricGroup& m) {
   return fmt::format("energy              {:.2f} W estimated, {:.1f} mJ a frame\n",
-                     number(m, "energy/power_total"), number(m, "energy/frame_total"));
+                     m.number("energy/power_total"), m.number("energy/frame_total"));
 }
 
 std::string quality_lines(const MetricGroup& m) {
-  std::string text;
-  for (const MetricGroup& group : m.groups) {
-    if (group.name != "quality" || group.metrics.empty()) continue;
-    text += fmt::format("valid pixels        {:.1f} % of the image\n", number(m, "quality/valid_share"));
-    if (group.metrics.size() == 1) continue;
-    if (number(m, "quality/scored_pixels") == 0) {
-      text += "ground truth        no pixel to score\n";
-      continue;
-    }
-    text += fmt::format(
-        "ground truth        coverage {:.1f} %, bad-1 {:.2f} %, bad-2 {:.2f} %, bad-3 {:.2f} %, mean error "
-        "{:.3f} px\n",
-        number(m, "quality/coverage"), number(m, "quality/bad_1"), number(m, "quality/bad_2"),
-        number(m, "quality/bad_3"), number(m, "quality/mean_error"));
-  }
-  return text;
+  const MetricGroup* const quality = m.find_group("quality");
+  if (quality == nullptr || quality->metrics.empty()) return "";
+  std::string text =
+      fmt::format("valid pixels        {:.1f} % of the image\n", quality->number("valid_share"));
+  if (quality->find("scored_pixels") == nullptr) return text;
+  if (quality->number("scored_pixels") == 0) return text + "ground truth        no pixel to score\n";
+  return text + fmt::format(
+                    "ground truth        coverage {:.1f} %, bad-1 {:.2f} %, bad-2 {:.2f} %, bad-3 {:.2f} %, "
+                    "mean error {:.3f} px\n",
+                    quality->number("coverage"), quality->number("bad_1"), quality->number("bad_2"),
+                    quality->number("bad_3"), quality->number("mean_error"));
 }
 
 }  // namespace
 
 std::string summary(const MetricGroup& m) {
   std::string text;
-  const auto count = [&m](const char* path) { return static_cast<std::int64_t>(number(m, path)); };
-  const std::int64_t offset = count("input/disparity_offset");
-  text += fmt::format("image               {} x {} px", count("input/width"), count("input/height"));
-  if (count("input/width") != count("input/processed_width") ||
-      count("input/height") != count("input/processed_height")) {
-    text += fmt::format(", processed as {} x {}", count("input/processed_width"),
-                        count("input/processed_height"));
+  const std::int64_t offset = m.count("input/disparity_offset");
+  text += fmt::format("image               {} x {} px", m.count("input/width"), m.count("input/height"));
+  if (m.count("input/width") != m.count("input/processed_width") ||
+      m.count("input/height") != m.count("input/processed_height")) {
+    text += fmt::format(", processed as {} x {}", m.count("input/processed_width"),
+                        m.count("input/processed_height"));
   }
-  text += fmt::format(", disparities {} to {} px\n", offset, offset + count("input/disparity_range") - 1);
+  text += fmt::format(", disparities {} to {} px\n", offset, offset + m.count("input/disparity_range") - 1);
   const std::string window = m.at("performance/frame_rate").window;
-  if (const double fps = number(m, "performance/frame_rate"); fps > 0) {
+  if (const double fps = m.number("performance/frame_rate"); fps > 0) {
     text += fmt::format("frame rate          {:.2f} fps steady state ({})\n", fps, window);
     text += fmt::format("evaluations         {:.3f} billion a second, {:.2f} million disparities a second\n",
-                        number(m, "performance/evaluations_per_second") / 1e9,
-                        number(m, "performance/disparities_per_second") / 1e6);
+                        m.number("performance/evaluations_per_second") / 1e9,
+                        m.number("performance/disparities_per_second") / 1e6);
   }
   text += fmt::format(
       "latency             {:.3f} ms to the first pixel, {:.3f} ms to the last, from frame in memory (first "
       "frame)\n",
-      number(m, "latency/first_pixel_first_frame"), number(m, "latency/last_pixel_first_frame"));
+      m.number("latency/first_pixel_first_frame"), m.number("latency/last_pixel_first_frame"));
   text += fmt::format("                    {:.3f} ms from exposure to the host, first frame {:.3f} ms\n",
-                      number(m, "latency/exposure_to_host_mean"),
-                      number(m, "latency/exposure_to_host_first_frame"));
-  if (count("camera/dropped_frames") + count("camera/missed_triggers") + count("camera/faulty_frames") > 0) {
+                      m.number("latency/exposure_to_host_mean"),
+                      m.number("latency/exposure_to_host_first_frame"));
+  if (m.count("camera/dropped_frames") + m.count("camera/missed_triggers") + m.count("camera/faulty_frames") >
+      0) {
     text += fmt::format(
         "cameras             {} frames dropped (no buffer free), {} faulty, {} triggers missed (reading "
         "out)\n",
-        count("camera/dropped_frames"), count("camera/faulty_frames"), count("camera/missed_triggers"));
+        m.count("camera/dropped_frames"), m.count("camera/faulty_frames"), m.count("camera/missed_triggers"));
   }
   text += pipeline_lines(m);
   text += limit_lines(m);
   if (m.find("memory/share") == nullptr) {  // another memory than the machine's own
-    text += fmt::format("memory              {:.1f} MB/s\n", number(m, "memory/bandwidth"));
+    text += fmt::format("memory              {:.1f} MB/s\n", m.number("memory/bandwidth"));
   } else {
     text += fmt::format("memory              {:.1f} of {:.0f} MB/s usable, bus taken {:.1f} % of the time",
-                        number(m, "memory/bandwidth"), number(m, "memory/usable_bandwidth"),
-                        number(m, "memory/share"));
+                        m.number("memory/bandwidth"), m.number("memory/usable_bandwidth"),
+                        m.number("memory/share"));
     if (m.find("memory/row_hits") != nullptr)
-      text += fmt::format(", {:.1f} % row hits", number(m, "memory/row_hits"));
+      text += fmt::format(", {:.1f} % row hits", m.number("memory/row_hits"));
     text += '\n';
   }
   text += memory_lines(m);
@@ -197,36 +174,27 @@ std::string stage_summary(const MetricGroup& m) {
       "latency             {:.3f} ms to the first pixel, {:.3f} ms to the last, with frames before it under "
       "way\n"
       "map                 {:.3f} B per pixel and image\n",
-      number(m, "latency/first_pixel_mean"), number(m, "latency/last_pixel_mean"),
-      number(m, "memory/map/bytes_per_pixel_and_image"));
-  for (const MetricGroup& group : m.groups) {
-    if (group.name == "energy") {
-      for (const Metric& metric : group.metrics) {
-        if (metric.name.rfind("power_", 0) == 0) {
-          text += fmt::format("energy {:<20}{:>5.2f} W estimated\n", metric.name.substr(6),
-                              std::get<double>(metric.value));
-        }
-      }
-    } else if (group.name == "stages") {
-      for (const MetricGroup& stage : group.groups) {
-        text += fmt::format(
-            "stage  {:<20}{:>5.1f} % busy, {:>5.1f} % starved, {:>5.1f} % blocked, {:>5.1f} % memory, "
-            "{:>5.1f} % "
-            "blanking of {:.0f} cycles\n",
-            stage.name, number(stage, "busy_share"), number(stage, "starved_share"),
-            number(stage, "blocked_share"), number(stage, "memory_share"), number(stage, "blanking_share"),
-            number(stage, "window"));
-      }
-    } else if (group.name == "streams") {
-      for (const MetricGroup& stream : group.groups) {
-        text += fmt::format(
-            "stream {:<20}depth {:>6.0f} of {:>4.0f} bit, held {:>8.1f} mean, {:>6.0f} largest; full "
-            "{:>5.1f} %, "
-            "empty {:>5.1f} % of the time\n",
-            stream.name, number(stream, "depth"), number(stream, "width"), number(stream, "mean_occupancy"),
-            number(stream, "high_water"), number(stream, "full"), number(stream, "empty"));
-      }
-    }
+      m.number("latency/first_pixel_mean"), m.number("latency/last_pixel_mean"),
+      m.number("memory/map/bytes_per_pixel_and_image"));
+  for (const Metric& metric : m.group_at("energy").metrics) {
+    if (metric.name.rfind("power_", 0) == 0)
+      text += fmt::format("energy {:<20}{:>5.2f} W estimated\n", metric.name.substr(6), metric.number());
+  }
+  for (const MetricGroup& stage : m.group_at("stages").groups) {
+    text += fmt::format(
+        "stage  {:<20}{:>5.1f} % busy, {:>5.1f} % starved, {:>5.1f} % blocked, {:>5.1f} % memory, "
+        "{:>5.1f} % "
+        "blanking of {:.0f} cycles\n",
+        stage.name, stage.number("busy_share"), stage.number("starved_share"), stage.number("blocked_share"),
+        stage.number("memory_share"), stage.number("blanking_share"), stage.number("window"));
+  }
+  for (const MetricGroup& stream : m.group_at("streams").groups) {
+    text += fmt::format(
+        "stream {:<20}depth {:>6.0f} of {:>4.0f} bit, held {:>8.1f} mean, {:>6.0f} largest; full "
+        "{:>5.1f} %, "
+        "empty {:>5.1f} % of the time\n",
+        stream.name, stream.number("depth"), stream.number("width"), stream.number("mean_occupancy"),
+        stream.number("high_water"), stream.number("full"), stream.number("empty"));
   }
   return text;
 }

@@ -68,16 +68,17 @@ ValidatedRow compare(const PublishedRow& row, const TimingResult& result) {
     validated.limit = fmt::format("{}: {}", name(result.status), result.advice());
     return validated;
   }
-  validated.predicted = predicted(row, result.metrics);
+  const MetricGroup metrics = metrics_of(result.metrics);
+  validated.predicted = predicted(row, metrics);
   validated.deviation = 100 * (validated.predicted / row.published - 1);
   validated.within = validated.deviation >= row.least && validated.deviation <= row.most;
-  validated.limit = result.metrics.at("limit").at("part").at("value");
+  validated.limit = metrics.word("limit/part");
   return validated;
 }
 
 }  // namespace
 
-double predicted(const PublishedRow& row, const nlohmann::ordered_json& metrics) {
+double predicted(const PublishedRow& row, const MetricGroup& metrics) {
   const auto check_unit = [&row](const std::string& unit) {
     if (row.unit == unit || (unit.empty() && row.unit == "-")) return;
     throw UserError(fmt::format("{}: {}: unit is '{}', but {} is in {}", row.origin, row.name, row.unit,
@@ -85,16 +86,16 @@ double predicted(const PublishedRow& row, const nlohmann::ordered_json& metrics)
   };
   if (row.metric == "frame_time") {
     check_unit("ms");
-    return 1e3 / metrics.at("performance").at("frame_rate").at("value").get<double>();
+    return 1e3 / metrics.number("performance/frame_rate");
   }
-  const nlohmann::ordered_json::json_pointer path("/" + row.metric + "/value");
-  if (!metrics.contains(path) || !metrics.at(path).is_number()) {
+  const Metric* const metric = metrics.find(row.metric);
+  if (metric == nullptr || !metric->is_number()) {
     throw UserError(
         fmt::format("{}: {}: timing.json has no number '{}', such as performance/frame_rate; or frame_time",
                     row.origin, row.name, row.metric));
   }
-  check_unit(metrics.at(nlohmann::ordered_json::json_pointer("/" + row.metric + "/unit")).get<std::string>());
-  return metrics.at(path).get<double>();
+  check_unit(metric->unit);
+  return metric->number();
 }
 
 std::vector<ValidatedRow> validate_rows(const std::vector<PublishedRow>& rows,

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "platform/validation/published_row.hpp"
+#include "traces/metrics.hpp"
 
 namespace parallax {
 
@@ -28,7 +29,7 @@ std::vector<ValidatedRow> validate_rows(const std::vector<PublishedRow>& rows,
 
 /// What `metrics` (timing.json) say of the row's figure, in its unit. Throws UserError, naming the row, when
 /// they do not have it or have it in another unit.
-double predicted(const PublishedRow& row, const nlohmann::ordered_json& metrics);
+double predicted(const PublishedRow& row, const MetricGroup& metrics);
 
 bool all_within(const std::vector<ValidatedRow>& rows);
 std::string table(const std::vector<ValidatedRow>& rows);

@@ -95,10 +95,8 @@ TEST(MachineInvariants, ABusThatIsAlwaysTakenIsTakenFor100Percent) {
   EXPECT_EQ(after_run(c,
                       [&](const Machine& machine) {
                         return check_shares(machine, c) +
-                               fmt::format(
-                                   "{}",
-                                   std::get<double>(
-                                       measure(machine, {}, c.width, c.height).at("memory/share").value));
+                               fmt::format("{}",
+                                           measure(machine, {}, c.width, c.height).number("memory/share"));
                       }),
             "100");
 }

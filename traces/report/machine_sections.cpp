@@ -20,33 +20,30 @@ std::string select_box(const char* id, const char* label, const std::string& opt
                      id, options);
 }
 
-std::string percentile_cell(const Json& tree, const std::string& path) {
-  const Json* const metric = find_metric(tree, path);
-  return metric == nullptr ? "" : number_text((*metric).at("value").get<double>(), 3);
+std::string percentile_cell(const MetricGroup& tree, const std::string& path) {
+  return tree.find(path) == nullptr ? "" : number_text(tree.number(path), 3);
 }
 
 }  // namespace
 
 std::string memory_section(const ReportInput& input) {
-  const Json& tree = input.timing;
-  if (!tree.contains("memory")) return "";
+  const MetricGroup* const memory = input.metrics.find_group("memory");
+  if (memory == nullptr) return "";
   std::string summary;
   Table table("What passed each port of the memory",
               {"port", "B a frame", "MB/s", "share of the bus", "latency, ns: mean", "p50", "p95", "p99",
                "largest", "stalls caused"});
-  for (const auto& [name, entry] : tree.at("memory").items()) {
-    if (is_metric(entry)) {
-      summary += fmt::format("{}{} {}", summary.empty() ? "" : "; ",
-                             term(words(name), entry.value("description", "")), escaped(metric_text(entry)));
-      continue;
-    }
-    std::vector<std::string> cells = {escaped(words(name)),
-                                      number_text(metric_number(entry, "bytes_per_frame"), 0),
-                                      number_text(metric_number(entry, "bandwidth"), 1),
-                                      fmt::format("{:.2f} %", metric_number(entry, "share"))};
+  for (const Metric& metric : memory->metrics) {
+    summary += fmt::format("{}{} {}", summary.empty() ? "" : "; ",
+                           term(words(metric.name), metric.description), escaped(metric_text(metric)));
+  }
+  for (const MetricGroup& port : memory->groups) {
+    std::vector<std::string> cells = {
+        escaped(words(port.name)), number_text(port.number_or("bytes_per_frame", 0), 0),
+        number_text(port.number_or("bandwidth", 0), 1), fmt::format("{:.2f} %", port.number_or("share", 0))};
     for (const char* latency : {"mean", "p50", "p95", "p99", "largest"})
-      cells.push_back(number_text(metric_number(entry, fmt::format("latency_{}", latency)), 0));
-    const Json* const stalls = find_metric(entry, "stalls");
+      cells.push_back(number_text(port.number_or(fmt::format("latency_{}", latency), 0), 0));
+    const Metric* const stalls = port.find("stalls");
     cells.push_back(stalls == nullptr ? "" : escaped(metric_text(*stalls)));
     table.row(cells);
   }
@@ -81,8 +78,8 @@ std::string memory_section(const ReportInput& input) {
 }
 
 std::string latency_section(const ReportInput& input) {
-  const Json& tree = input.timing;
-  if (!tree.contains("latency")) return "";
+  const MetricGroup* const latency = input.metrics.find_group("latency");
+  if (latency == nullptr) return "";
   Table table("Of a frame, ms", {"span", "first frame", "mean", "p50", "p95", "p99", "largest"});
   const std::string suffix = "_first_frame";
   std::string options;
@@ -91,19 +88,19 @@ std::string latency_section(const ReportInput& input) {
                            name == "exposure_to_host" ? " selected" : "", escaped(words(name)));
   };
   const Json counts = input.profile.is_object() ? input.profile.value("latency", Json()) : Json();
-  for (const auto& metric : tree.at("latency").items()) {
-    const std::string& key = metric.key();
+  for (const Metric& metric : latency->metrics) {
+    const std::string& key = metric.name;
     if (key.size() <= suffix.size() || key.substr(key.size() - suffix.size()) != suffix) continue;
     const std::string span = key.substr(0, key.size() - suffix.size());
-    std::vector<std::string> cells = {metric_term(tree, "latency/" + key, words(span))};
+    std::vector<std::string> cells = {metric_term(*latency, key, words(span))};
     for (const char* what : {"first_frame", "mean", "p50", "p95", "p99", "largest"})
-      cells.push_back(percentile_cell(tree, fmt::format("latency/{}_{}", span, what)));
+      cells.push_back(percentile_cell(*latency, fmt::format("{}_{}", span, what)));
     table.row(cells);
     if (counts.contains(span) && !counts.at(span).at("count").empty()) option(span, "ms");
   }
   if (counts.is_object()) {
     for (const auto& port : counts.items()) {
-      if (tree.at("memory").contains(port.key()) && !port.value().at("count").empty())
+      if (input.metrics.find_group("memory/" + port.key()) != nullptr && !port.value().at("count").empty())
         option(port.key(), "ns");
     }
   }
@@ -118,9 +115,9 @@ std::string limits_section(const ReportInput& input) {
       "One limit taken away at a time, and the machine run again",
       {"limit taken away", "frames/s", "gain", "exposure to host, ms", "limits then", "meaning", "settings"},
       "words");
-  const Json& base = input.relaxations.at("base");
-  table.row({"none", number_text(metric_number(base, "frame_rate"), 2), "",
-             number_text(metric_number(base, "latency"), 3), "", "the machine as it is", ""});
+  const MetricGroup base = metrics_of(input.relaxations.at("base"));
+  table.row({"none", number_text(base.number("frame_rate"), 2), "", number_text(base.number("latency"), 3),
+             "", "the machine as it is", ""});
   const std::string limit = input.relaxations.value("limit", "");
   for (const Json& entry : input.relaxations.at("relaxations")) {
     const std::string name = entry.value("name", "");
@@ -131,10 +128,11 @@ std::string limits_section(const ReportInput& input) {
       table.row({escaped(words(name)), "", "", "", "", escaped(entry.value("message", "")), ""});
       continue;
     }
+    const MetricGroup numbers = metrics_of(entry);
     table.row(
-        {escaped(words(name)), number_text(metric_number(entry, "frame_rate"), 2),
-         fmt::format("{:+.2f}&nbsp;%", metric_number(entry, "gain") + 0.0),
-         number_text(metric_number(entry, "latency"), 3), escaped(words(entry.value("next_part", ""))),
+        {escaped(words(name)), number_text(numbers.number("frame_rate"), 2),
+         fmt::format("{:+.2f}&nbsp;%", numbers.number("gain") + 0.0),
+         number_text(numbers.number("latency"), 3), escaped(words(entry.value("next_part", ""))),
          escaped(entry.value("meaning", "")),
          settings.size() < 80 ? escaped(settings)
                               : "<details><summary>all streams</summary>" + escaped(settings) + "</details>"},
@@ -144,35 +142,28 @@ std::string limits_section(const ReportInput& input) {
 }
 
 std::string energy_section(const ReportInput& input) {
-  const Json& tree = input.timing;
-  if (!tree.contains("energy")) return "";
+  const MetricGroup* const energy = input.metrics.find_group("energy");
+  if (energy == nullptr) return "";
   Table table("An estimate: what the parts did, times what a unit of it costs (keys energy.* of the preset)",
               {"part", "W", "mJ a frame", "what it holds"}, "words");
   const std::string prefix = "power_";
-  for (const auto& [name, metric] : tree.at("energy").items()) {
-    if (name.rfind(prefix, 0) != 0) continue;
-    const std::string part = name.substr(prefix.size());
-    table.row({escaped(words(part)), number_text(metric.at("value").get<double>(), 3),
-               number_text(metric_number(tree, "energy/frame_" + part), 3),
-               escaped(metric.value("description", ""))});
+  for (const Metric& metric : energy->metrics) {
+    if (metric.name.rfind(prefix, 0) != 0) continue;
+    const std::string part = metric.name.substr(prefix.size());
+    table.row({escaped(words(part)), number_text(metric.number(), 3),
+               number_text(energy->number("frame_" + part), 3), escaped(metric.description)});
   }
   return canvas("chart-energy", "Estimated power of each part") + table.html();
 }
 
 namespace {
 
-void add_numbers(Table& table, const Json& group, const std::string& path) {
-  for (const auto& [name, entry] : group.items()) {
-    const std::string here = path.empty() ? name : path + "/" + name;
-    if (here == "configuration") continue;
-    if (is_metric(entry)) {
-      const bool list = entry.at("value").is_array();
-      table.row({escaped(here), escaped(list ? entry.at("value").dump() : metric_text(entry)),
-                 escaped(entry.value("description", "")), escaped(entry.value("window", ""))});
-    } else if (entry.is_object()) {
-      add_numbers(table, entry, here);
-    }
+void add_numbers(Table& table, const MetricGroup& group, const std::string& path) {
+  for (const Metric& metric : group.metrics) {
+    table.row({escaped(path + metric.name), escaped(metric_text(metric)), escaped(metric.description),
+               escaped(metric.window)});
   }
+  for (const MetricGroup& child : group.groups) add_numbers(table, child, path + child.name + "/");
 }
 
 void add_keys(std::string& text, const Json& group, const std::string& path) {
@@ -190,21 +181,21 @@ void add_keys(std::string& text, const Json& group, const std::string& path) {
 
 std::string numbers_section(const ReportInput& input) {
   Table table("", {"number", "value", "meaning", "over"}, "words");
-  add_numbers(table, input.timing, "");
+  add_numbers(table, input.metrics, "");
   return "<details><summary>Every number of timing.json, with its meaning</summary>\n" + table.html() +
          "</details>\n";
 }
 
 std::string configuration_section(const ReportInput& input) {
   std::string keys;
-  add_keys(keys, input.timing.at("configuration"), "");
+  add_keys(keys, input.configuration, "");
   return fmt::format(
       "<p>This command makes the run again: "
       "<button class=\"copy script-only\" type=\"button\" data-of=\"command\">copy</button></p>\n"
       "<pre class=\"command\" id=\"command\">{}</pre>\n"
       "<details><summary>Every key of the configuration</summary>\n<pre "
       "class=\"command\">{}</pre></details>\n",
-      escaped(metric_word(input.timing, "run/command")), escaped(keys));
+      escaped(input.metrics.word_or("run/command", "")), escaped(keys));
 }
 
 }  // namespace parallax

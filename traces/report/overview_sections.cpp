@@ -9,15 +9,13 @@
 namespace parallax {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 std::string card(const std::string& value, const std::string& name) {
   return fmt::format("<div class=\"card\"><div class=\"value\">{}</div><div class=\"name\">{}</div></div>\n",
                      escaped(value), name);
 }
 
-std::string card(const Json& tree, const char* path, const char* name) {
-  const Json* const metric = find_metric(tree, path);
+std::string card(const MetricGroup& tree, const char* path, const char* name) {
+  const Metric* const metric = tree.find(path);
   return metric == nullptr ? "" : card(metric_text(*metric), metric_term(tree, path, name));
 }
 
@@ -27,34 +25,31 @@ std::string large_number(double value, const std::string& unit) {
   return escaped(fmt::format("{:.5g} {}", value, unit));
 }
 
-std::string per_second(const Json& tree, const char* path, double unit, const char* unit_name,
+std::string per_second(const MetricGroup& tree, const char* path, double unit, const char* unit_name,
                        const char* name) {
-  if (find_metric(tree, path) == nullptr) return "";
-  return card(number_text(metric_number(tree, path) / unit, 2) + " " + unit_name,
-              metric_term(tree, path, name));
+  if (tree.find(path) == nullptr) return "";
+  return card(number_text(tree.number(path) / unit, 2) + " " + unit_name, metric_term(tree, path, name));
 }
 
-std::string stuck_banner(const Json& tree) {
+std::string stuck_banner(const MetricGroup& deadlock) {
   std::string waits;
-  for (const auto& [name, wait] : tree.at("deadlock").items()) {
-    if (is_metric(wait)) continue;
+  for (const MetricGroup& wait : deadlock.groups) {
     waits += fmt::format("<li>{} waits on stream <b>{}</b> ({}, depth {}) for {}</li>\n",
-                         escaped(metric_word(wait, "waiter")), escaped(metric_word(wait, "stream")),
-                         escaped(metric_word(wait, "state")), metric_number(wait, "depth"),
-                         escaped(metric_word(wait, "waits_for")));
+                         escaped(wait.word("waiter")), escaped(wait.word("stream")),
+                         escaped(wait.word("state")), wait.count("depth"), escaped(wait.word("waits_for")));
   }
   return fmt::format(
       "<div class=\"verdict stuck\" role=\"alert\"><b>The machine got stuck</b> before the host had all "
       "frames.\n<ol>{}</ol>\n<b>Remedy:</b> {}</div>\n",
-      waits, escaped(metric_word(tree, "deadlock/remedy")));
+      waits, escaped(deadlock.word("remedy")));
 }
 
-std::string verdict_banner(const Json& tree) {
-  if (tree.contains("deadlock")) return stuck_banner(tree);
-  std::string sentence = metric_word(tree, "limit/verdict");
-  if (sentence.empty() && find_metric(tree, "limit/part") != nullptr) {
-    sentence = fmt::format("{} at {:.1f} % of the time", metric_word(tree, "limit/part"),
-                           metric_number(tree, "limit/utilisation"));
+std::string verdict_banner(const MetricGroup& tree) {
+  if (const MetricGroup* const deadlock = tree.find_group("deadlock")) return stuck_banner(*deadlock);
+  std::string sentence = tree.word_or("limit/verdict", "");
+  if (sentence.empty() && tree.find("limit/part") != nullptr) {
+    sentence =
+        fmt::format("{} at {:.1f} % of the time", tree.word("limit/part"), tree.number("limit/utilisation"));
   }
   return sentence.empty() ? "" : fmt::format("<p class=\"verdict\">{}</p>\n", escaped(sentence));
 }
@@ -62,19 +57,18 @@ std::string verdict_banner(const Json& tree) {
 }  // namespace
 
 std::string overview(const ReportInput& input) {
-  const Json& tree = input.timing;
+  const MetricGroup& tree = input.metrics;
+  const std::int64_t offset = tree.count("input/disparity_offset");
   std::string html = fmt::format(
-      "<h1>Stereo pipeline, {:.0f} x {:.0f} px, disparities {:.0f} to {:.0f}</h1>\n"
-      "<p class=\"soft\">Preset {}, {:.0f} frames in time, {:.0f} of them with images</p>\n",
-      metric_number(tree, "input/width"), metric_number(tree, "input/height"),
-      metric_number(tree, "input/disparity_offset"),
-      metric_number(tree, "input/disparity_offset") + metric_number(tree, "input/disparity_range") - 1,
-      escaped(tree.at("configuration").value("preset", "")), metric_number(tree, "input/frames"),
-      metric_number(tree, "input/frames_with_images"));
+      "<h1>Stereo pipeline, {} x {} px, disparities {} to {}</h1>\n"
+      "<p class=\"soft\">Preset {}, {} frames in time, {} of them with images</p>\n",
+      tree.count("input/width"), tree.count("input/height"), offset,
+      offset + tree.count("input/disparity_range") - 1, escaped(input.configuration.value("preset", "")),
+      tree.count("input/frames"), tree.count("input/frames_with_images"));
   html += verdict_banner(tree);
   html += "<div class=\"cards\">\n";
-  if (metric_number(tree, "performance/frame_rate") > 0) {
-    html += card(number_text(metric_number(tree, "performance/frame_rate"), 2) + " fps",
+  if (tree.number_or("performance/frame_rate", 0) > 0) {
+    html += card(number_text(tree.number("performance/frame_rate"), 2) + " fps",
                  metric_term(tree, "performance/frame_rate", "frame rate"));
     html += per_second(tree, "performance/evaluations_per_second", 1e9, "billion/s", "disparity evaluations");
     html += per_second(tree, "performance/disparities_per_second", 1e6, "million/s", "disparities");
@@ -82,20 +76,19 @@ std::string overview(const ReportInput& input) {
   html += card(tree, "latency/first_pixel_first_frame", "first pixel, first frame");
   html += card(tree, "latency/last_pixel_first_frame", "last pixel, first frame");
   html += card(tree, "latency/exposure_to_host_mean", "exposure to host, mean");
-  if (find_metric(tree, "memory/bandwidth") != nullptr) {
-    html += card(fmt::format("{} of {} MB/s", number_text(metric_number(tree, "memory/bandwidth"), 0),
-                             number_text(metric_number(tree, "memory/usable_bandwidth"), 0)),
+  if (tree.find("memory/bandwidth") != nullptr) {
+    html += card(fmt::format("{} of {} MB/s", number_text(tree.number("memory/bandwidth"), 0),
+                             number_text(tree.number_or("memory/usable_bandwidth", 0), 0)),
                  metric_term(tree, "memory/bandwidth", "memory bandwidth"));
   }
-  if (find_metric(tree, "energy/power_total") != nullptr) {
-    html += card(number_text(metric_number(tree, "energy/power_total"), 2) + " W",
+  if (tree.find("energy/power_total") != nullptr) {
+    html += card(number_text(tree.number("energy/power_total"), 2) + " W",
                  metric_term(tree, "energy/power_total", "power, an estimate"));
   }
-  if (tree.contains("quality")) {
-    for (const auto& [name, metric] : tree.at("quality").items()) {
-      if (is_metric(metric) &&
-          (name == "density" || name == "coverage" || name.rfind("bad_3", 0) == 0 || name == "mean_error"))
-        html += card(metric_text(metric), metric_term(tree, "quality/" + name, words(name)));
+  if (const MetricGroup* const quality = tree.find_group("quality")) {
+    for (const Metric& metric : quality->metrics) {
+      if (metric.name == "coverage" || metric.name.rfind("bad_3", 0) == 0 || metric.name == "mean_error")
+        html += card(metric_text(metric), metric_term(*quality, metric.name, words(metric.name)));
     }
   }
   return html + "</div>\n";

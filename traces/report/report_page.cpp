@@ -56,7 +56,7 @@ std::string html_page(const std::string& title, const std::string& body, const J
 }
 
 std::string report_page(const ReportInput& input) {
-  const Json& tree = input.timing;
+  const MetricGroup& tree = input.metrics;
   std::string navigation, sections;
   for (const Part& part : kParts) {
     const std::string html = part.make(input);
@@ -66,7 +66,7 @@ std::string report_page(const ReportInput& input) {
   }
   Json data;
   for (const char* group : {"stages", "streams", "energy"}) {
-    if (tree.contains(group)) data[group] = tree[group];
+    if (const MetricGroup* const found = tree.find_group(group)) data[group] = to_json(*found);
   }
   if (!input.profile.is_null()) data["profile"] = input.profile;
   if (!input.relaxations.is_null()) data["relaxations"] = input.relaxations;
@@ -78,12 +78,11 @@ std::string report_page(const ReportInput& input) {
       "<footer>Written by Parallax {} ({}). A number's meaning shows when the pointer rests on it, and in "
       "the "
       "table of all numbers. Charts: Chart.js, MIT licence.</footer>\n",
-      navigation, overview(input), sections, escaped(metric_word(tree, "run/version")),
-      escaped(metric_word(tree, "run/revision")));
-  return html_page(
-      fmt::format("Parallax: {:.0f} x {:.0f}, {}", metric_number(tree, "input/width"),
-                  metric_number(tree, "input/height"), tree.at("configuration").value("preset", "")),
-      body, data);
+      navigation, overview(input), sections, escaped(tree.word_or("run/version", "")),
+      escaped(tree.word_or("run/revision", "")));
+  return html_page(fmt::format("Parallax: {} x {}, {}", tree.count("input/width"), tree.count("input/height"),
+                               input.configuration.value("preset", "")),
+                   body, data);
 }
 
 }  // namespace parallax

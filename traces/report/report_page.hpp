@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "traces/metrics.hpp"
+
 namespace parallax {
 
 struct ReportImage {
@@ -27,15 +29,16 @@ struct BudgetLine {
 
 /// What a report is made of.
 struct ReportInput {
-  nlohmann::ordered_json timing;       ///< timing.json
-  nlohmann::ordered_json profile;      ///< profile.json; null: there is none
-  nlohmann::ordered_json relaxations;  ///< relaxations.json; null: there is none
+  MetricGroup metrics;                   ///< of timing.json
+  nlohmann::ordered_json configuration;  ///< of timing.json
+  nlohmann::ordered_json profile;        ///< profile.json; null: there is none
+  nlohmann::ordered_json relaxations;    ///< relaxations.json; null: there is none
   std::vector<ReportImage> images;
   std::vector<BudgetLine> budget;
 };
 
 /// A page of HTML that holds all it needs: styles, charts, images, numbers. Its tables say everything without
-/// a script.
+/// a script. Throws MetricError or nlohmann's exceptions where a number is missing or of another kind.
 std::string report_page(const ReportInput& input);
 
 /// Another page in the same clothes: `body` is HTML, `data` what report.js reads.
