@@ -2,8 +2,17 @@
 #include "traces/row_ends.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 namespace parallax {
+
+RowEnds rows_of_lengths(const std::vector<std::uint64_t>& lengths, std::int32_t rows_of_a_tile) {
+  RowEnds rows;
+  rows.rows_of_a_tile = rows_of_a_tile;
+  rows.ends.resize(lengths.size());
+  std::partial_sum(lengths.begin(), lengths.end(), rows.ends.begin());
+  return rows;
+}
 
 RowEnds equal_rows(std::uint64_t units_of_a_row, std::int32_t rows, std::int32_t tiles) {
   RowEnds ends;

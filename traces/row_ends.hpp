@@ -22,6 +22,9 @@ struct RowEnds {
   std::uint64_t end_of(std::int64_t frame, std::int32_t row) const;
 };
 
+/// Rows of the given lengths, tile by tile.
+RowEnds rows_of_lengths(const std::vector<std::uint64_t>& lengths, std::int32_t rows_of_a_tile);
+
 /// Rows of equal length.
 RowEnds equal_rows(std::uint64_t units_of_a_row, std::int32_t rows, std::int32_t tiles);
 

@@ -25,10 +25,10 @@
 #include "platform/input/rectification_choice.hpp"
 #include "platform/input/run_input.hpp"
 #include "platform/machine/machine.hpp"
+#include "platform/machine/steady_state.hpp"
 #include "platform/report/report_file.hpp"
 #include "platform/results/deadlock_report.hpp"
 #include "platform/results/frame_results.hpp"
-#include "platform/results/limits.hpp"
 #include "platform/results/peak_memory.hpp"
 #include "platform/results/progress.hpp"
 #include "platform/results/result_names.hpp"
@@ -115,7 +115,7 @@ class Run {
     if (options_.left.empty() && options_.input.empty()) totals_.scene_seed = options_.scene.seed;
     if (!machine.finished()) return report_stuck(machine);
     MetricGroup metrics = measure(machine, totals_, size_.width, size_.height);
-    if (!judge(metrics, [&] { return interruption.requested(); })) {
+    if (!judge(machine, metrics, [&] { return interruption.requested(); })) {
       write(tree_of(metrics));
       return interrupted(interruption.signal());
     }
@@ -243,10 +243,10 @@ class Run {
   // What limits, by taking limits away: first that of the busiest part; if it gains nothing, or all are to be
   // reported, all the others.
   // Says no when it was interrupted.
-  bool judge(MetricGroup& metrics, const std::function<bool()>& interrupted) {
+  bool judge(const Machine& machine, MetricGroup& metrics, const std::function<bool()>& interrupted) {
     if (!standby_ || metrics.number("performance/frame_rate") == 0) return true;
     const nlohmann::ordered_json base = to_json(metrics);
-    const std::string part = base.at("limit").at("part").at("value");
+    const Part* const part = machine.find_part(base.at("limit").at("part").at("value"));
     std::vector<Relaxation> left = relaxations(configuration_.machine, base);
     std::vector<Relaxation> tried;
     std::vector<TimingResult> results;
@@ -259,8 +259,9 @@ class Run {
         results.push_back(std::move(result));
       tried.insert(tried.end(), wanted.begin(), wanted.end());
     };
-    const auto first =
-        std::find_if(left.begin(), left.end(), [&](const Relaxation& r) { return relieves(r, part); });
+    const auto first = std::find_if(left.begin(), left.end(), [part](const Relaxation& relaxation) {
+      return part != nullptr && part->is_relieved_by(relaxation.limit);
+    });
     if (first != left.end() && !options_.report) {
       const Relaxation relaxation = *first;
       left.erase(first);
@@ -273,7 +274,7 @@ class Run {
     }
     if (interrupted()) return false;
     if (options_.report) folder_->write("relaxations.json", to_json(limits).dump(2) + "\n");
-    add_verdict(metrics, verdict(base, limits), limits);
+    add_verdict(metrics, verdict(base, part, limits), limits);
     return true;
   }
 

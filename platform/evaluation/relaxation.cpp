@@ -12,8 +12,8 @@ constexpr std::int64_t kFastestClock = 10'000'000'000;  // Hz, the largest that 
 constexpr std::int64_t kDeeper = 16;
 constexpr std::int64_t kDeepest = 1 << 20;  // tokens; deeper FIFOs take memory of this computer
 
-Relaxation clock(const std::string& name, std::int64_t hertz) {
-  return {name + "_clock",
+Relaxation clock(Relief limit, const char* name, std::int64_t hertz) {
+  return {limit,
           "twice as fast",
           fmt::format("doubling the {}'s clock", name),
           {fmt::format("clocks.{}_hz={}", name, std::min(2 * hertz, kFastestClock))}};
@@ -51,8 +51,9 @@ std::vector<std::string> longer_queues(const DmaConfig& dma) {
 }
 
 Relaxation memory_clock(const MachineConfig& config) {
-  if (config.memory.model == MemoryModel::kBus) return clock("memory", config.clocks.memory_hz);
-  return {"memory_clock",
+  if (config.memory.model == MemoryModel::kBus)
+    return clock(Relief::kMemoryClock, "memory", config.clocks.memory_hz);
+  return {Relief::kMemoryClock,
           "twice as fast",
           "doubling the memory's clock",
           {fmt::format("dram.clock_period_ps={}",
@@ -66,59 +67,40 @@ std::int64_t larger_memory(const MemoryConfig& config) {
 
 }  // namespace
 
-bool relieves(const Relaxation& relaxation, const std::string& part) {
-  const auto begins = [&part](const char* word) { return part.rfind(word, 0) == 0; };
-  const std::string& name = relaxation.name;
-  const bool dma = begins("dma_");
-  if (name == "memory") return part == "memory" || dma;
-  if (name == "memory_clock") return part == "memory";
-  if (name == "dma") return dma;
-  if (name == "buffer_port" || name == "path_storage")
-    return begins("dma_buffer") || begins("pack_") || begins("unpack_");
-  if (name == "camera") return begins("camera");
-  if (name == "camera_clock") return part == "camera";
-  if (name == "software") return part == "software" || part == "core";
-  if (name == "link" || name == "link_clock") return part == "link";
-  if (name == "host") return part == "host";
-  if (name == "matching_interval") return part == "matching" || part == "core";
-  if (name != "core_clock") return false;  // what lies between parts
-  return !dma && part != "memory" && !begins("camera") && part != "software" && part != "link" &&
-         part != "host" && part != "none";
-}
-
 std::vector<Relaxation> relaxations(const MachineConfig& config, const nlohmann::ordered_json& metrics) {
   std::vector<Relaxation> all{
-      {"fifos", "between stages, 16 times and 1024 tokens deeper", "deeper FIFOs", deeper_fifos(metrics)},
-      {"memory",
+      {Relief::kFifos, "between stages, 16 times and 1024 tokens deeper", "deeper FIFOs",
+       deeper_fifos(metrics)},
+      {Relief::kMemory,
        "no latency, all of 1024 B a cycle",
        "a memory without limits",
        {"memory.model=bus", "memory.bytes_per_cycle=1024", "memory.latency_cycles=0",
         "memory.efficiency=100"}},
-      {"dma", "8 times as many bursts under way", "8 times as many bursts under way",
+      {Relief::kDma, "8 times as many bursts under way", "8 times as many bursts under way",
        longer_queues(config.dma)},
-      {"camera",
+      {Relief::kCamera,
        "any rate, cable and pixel clock",
        "cameras without limits",
        {fmt::format("clocks.camera_hz={}", kFastestClock), "camera.bytes_per_second=1000000000000",
         "camera.frame_rate=0", "camera.jitter_ns=0", "camera.exposure_ns=0", "camera.skew_ns=0",
         "camera.row_blanking=0", "camera.frame_blanking=0"}},
-      {"buffers",
+      {Relief::kBuffers,
        "twice as many for frames and results",
        "twice as many buffers",
        {fmt::format("camera.frame_buffers={}", std::min(2 * config.camera.frame_buffers, 64U)),
         fmt::format("link.output_buffers={}", std::min(2 * config.link.output_buffers, 64U)),
         fmt::format("memory.size_bytes={}", larger_memory(config.memory))}},
-      clock("core", config.clocks.core_hz),
+      clock(Relief::kCoreClock, "core", config.clocks.core_hz),
       memory_clock(config),
-      clock("camera", config.clocks.camera_hz)};
+      clock(Relief::kCameraClock, "camera", config.clocks.camera_hz)};
   if (config.timing.matching.interval > 1 || config.matching.recurrence_latency > 1) {
-    all.push_back({"matching_interval",
+    all.push_back({Relief::kMatchingInterval,
                    "one iteration a cycle, pixel after pixel",
                    "a matcher without interval or recurrence",
                    {"matching.interval=1", "matching.recurrence_latency=1"}});
   }
   if (config.matching.path_storage == PathStorage::kMemory || (config.matching.paths & kSouthernPaths) != 0) {
-    all.push_back({"buffer_port",
+    all.push_back({Relief::kBufferPort,
                    "8192 bit a cycle",
                    "a wider buffer port",
                    {"dma.buffer.data_bits=8192",
@@ -127,19 +109,20 @@ std::vector<Relaxation> relaxations(const MachineConfig& config, const nlohmann:
                     "dma.buffer.fifo_bytes=1048576"}});
   }
   if (config.matching.path_storage == PathStorage::kMemory) {
-    all.push_back({"path_storage", "on chip", "path costs on chip", {"matching.path_storage=on_chip"}});
+    all.push_back({Relief::kPathStorage, "on chip", "path costs on chip", {"matching.path_storage=on_chip"}});
   }
   if (config.software.response_ns > 0 || !config.software.queue_frames) {
-    all.push_back({"software",
+    all.push_back({Relief::kSoftware,
                    "no time between frames, which queue",
                    "software that takes no time",
                    {"software.response_ns=0", "software.queue_frames=true"}});
   }
   if (config.link.enabled) {
-    all.push_back(clock("link", config.clocks.link_hz));
-    all.push_back({"link", "1 Tbit/s", "a link of 1 Tbit/s", {"link.line_rate=1000000000000"}});
+    all.push_back(clock(Relief::kLinkClock, "link", config.clocks.link_hz));
+    all.push_back({Relief::kLink, "1 Tbit/s", "a link of 1 Tbit/s", {"link.line_rate=1000000000000"}});
     if (config.link.host_pixel_rate > 0)
-      all.push_back({"host", "takes pixels at any rate", "a host of any rate", {"link.host_pixel_rate=0"}});
+      all.push_back(
+          {Relief::kHost, "takes pixels at any rate", "a host of any rate", {"link.host_pixel_rate=0"}});
   }
   return all;
 }

@@ -6,19 +6,21 @@
 #include <vector>
 
 #include "platform/config/machine_config.hpp"
+#include "platform/machine/part.hpp"
 
 namespace parallax {
 
-/// One limit of a machine taken away, as configuration keys.
+/// One limit of a machine taken away, as configuration keys. Part::relieved_by says which parts that makes
+/// faster.
 struct Relaxation {
-  std::string name;
+  Relief limit;
   std::string meaning;                   ///< a few words
   std::string remedy;                    ///< the same in a sentence: "... gives 143 fps"
   std::vector<std::string> assignments;  ///< "key=value"
-};
 
-/// Whether a relaxation makes a part faster (PartLoad::part).
-bool relieves(const Relaxation& relaxation, const std::string& part);
+  /// "core_clock".
+  std::string name() const { return name_of(limit); }
+};
 
 /// All that make sense for a machine: those that would change nothing are left out. `metrics` is its timing
 /// (timing.json), for the depths that its FIFOs have.

@@ -71,23 +71,23 @@ std::string to_text(const RelaxedLimits& limits) {
                   "frame rate", "latency", "gain", "none", limits.frame_rate, limits.latency);
   for (const RelaxedLimit& limit : limits.gains) {
     lines += limit.measured
-                 ? fmt::format("{:20}{:>9.2f} fps {:>11.3f} ms  {:>+6.2f} %  {}\n", limit.relaxation.name,
+                 ? fmt::format("{:20}{:>9.2f} fps {:>11.3f} ms  {:>+6.2f} %  {}\n", limit.relaxation.name(),
                                limit.frame_rate, limit.latency, limit.gain, limit.relaxation.meaning)
-                 : fmt::format("{:20}{}\n", limit.relaxation.name, limit.message);
+                 : fmt::format("{:20}{}\n", limit.relaxation.name(), limit.message);
   }
   const RelaxedLimit* const found = limits.limit();
   return lines + fmt::format("limit               {}\n",
-                             found == nullptr ? "none of them alone" : found->relaxation.name);
+                             found == nullptr ? "none of them alone" : found->relaxation.name());
 }
 
 Json to_json(const RelaxedLimits& limits) {
   Json tree;
   const RelaxedLimit* const found = limits.limit();
-  tree["limit"] = found == nullptr ? "none" : found->relaxation.name;
+  tree["limit"] = found == nullptr ? "none" : found->relaxation.name();
   add_rates(tree["base"], limits.frame_rate, limits.latency);
   tree["relaxations"] = Json::array();
   for (const RelaxedLimit& limit : limits.gains) {
-    Json entry{{"name", limit.relaxation.name},
+    Json entry{{"name", limit.relaxation.name()},
                {"meaning", limit.relaxation.meaning},
                {"set", limit.relaxation.assignments}};
     if (limit.measured) {

@@ -15,25 +15,25 @@ std::string spoken(std::string name) {
 
 }  // namespace
 
-std::string verdict(const nlohmann::ordered_json& base, const RelaxedLimits& limits) {
+std::string verdict(const nlohmann::ordered_json& base, const Part* part, const RelaxedLimits& limits) {
   const RelaxedLimit* const found = limits.limit();
-  const std::string part =
-      base.contains("limit") ? base.at("limit").at("part").at("value").get<std::string>() : "none";
   const std::string share =
-      part == "none"
+      part == nullptr
           ? ""
           : fmt::format(" at {:.1f} %", base.at("limit").at("utilisation").at("value").get<double>());
   if (found == nullptr) {
-    return part == "none"
+    return part == nullptr
                ? "no limit gains anything alone: each frame fills the look-ahead anew, or two are equal"
-               : fmt::format("{} limits{}, and so does another: alone, neither gains", spoken(part), share);
+               : fmt::format("{} limits{}, and so does another: alone, neither gains", spoken(part->name),
+                             share);
   }
-  const bool named = relieves(found->relaxation, part);
-  const std::string limiting = named ? part : found->relaxation.name;
+  const bool named = part != nullptr && part->is_relieved_by(found->relaxation.limit);
+  const std::string limiting = named ? part->name : found->relaxation.name();
   std::string text = fmt::format("{} limits{}; {} gives {:.1f} fps", spoken(limiting), named ? share : "",
                                  found->relaxation.remedy, found->frame_rate);
   if (found->next_part == "none") return text + ", and then no part limits alone";
-  if (found->next_part == part) return text + fmt::format(", and {} still limits", spoken(part));
+  if (part != nullptr && found->next_part == part->name)
+    return text + fmt::format(", and {} still limits", spoken(part->name));
   return text + fmt::format(", then {} limits", spoken(found->next_part));
 }
 
@@ -42,7 +42,7 @@ void add_verdict(MetricGroup& root, const std::string& sentence, const RelaxedLi
   const std::string window = "a run of the machine without that limit";
   group.add({"verdict", sentence, "", "What limits, and what taking it away would gain.", window});
   const RelaxedLimit* const found = limits.limit();
-  group.add({"relaxation", found == nullptr ? std::string("none") : found->relaxation.name, "",
+  group.add({"relaxation", found == nullptr ? std::string("none") : found->relaxation.name(), "",
              "The limit that gains most when it alone is taken away, of those that were tried.", window});
   group.add({"relaxed_frame_rate", found == nullptr ? limits.frame_rate : found->frame_rate, "frames/s",
              "Frame rate without it.", window});

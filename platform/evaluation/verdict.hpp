@@ -9,9 +9,9 @@
 
 namespace parallax {
 
-/// What limits, in one sentence. `base`: timing.json of the machine as it is; it names the part that is at
-/// work all the time, where there is one.
-std::string verdict(const nlohmann::ordered_json& base, const RelaxedLimits& limits);
+/// What limits, in one sentence. `base`: timing.json of the machine as it is. `part`: that of its parts which
+/// is at work all the time; null where there is none.
+std::string verdict(const nlohmann::ordered_json& base, const Part* part, const RelaxedLimits& limits);
 
 /// Adds to the group "limit" of a run's metrics what taking limits away has shown.
 void add_verdict(MetricGroup& root, const std::string& sentence, const RelaxedLimits& limits);

@@ -57,7 +57,15 @@ Acquisition::Acquisition(const sc_core::sc_module_name& name, const MachineConfi
       dma_right_("dma_right", engine_config(config.dma.camera), clock),
       left_bursts_("camera_left_bursts", dataflow, clock, clock, engine_config(config.dma.camera).fifo()),
       right_bursts_("camera_right_bursts", dataflow, clock, clock, engine_config(config.dma.camera).fifo()),
+      ports_{{"camera_left", "camera", dma_left_, config.dma.camera},
+             {"camera_right", "camera", dma_right_, config.dma.camera}},
       until_fault_(config.camera.fault_every) {
+  ports_[0].buffer = BufferKind::kLeft;
+  ports_[1].buffer = BufferKind::kRight;
+  const auto bytes = static_cast<std::uint64_t>(row_bytes(config, input));
+  for (MemoryPort& port : ports_) {
+    port.rows = std::make_shared<const RowEnds>(equal_rows(bytes, input.height, 1));
+  }
   if (config.camera.early_start_rows > 0) {
     left_progress_ = std::make_shared<TransferProgress>(dataflow);
     right_progress_ = std::make_shared<TransferProgress>(dataflow);
@@ -84,6 +92,19 @@ Acquisition::Acquisition(const sc_core::sc_module_name& name, const MachineConfi
   }
   SC_HAS_PROCESS(Acquisition);
   SC_THREAD(expose_frames);
+}
+
+std::vector<Part> Acquisition::parts() const {
+  const CameraConfig& config = config_.camera;
+  Part cameras{PartKind::kCamera, "camera", "clocks.camera_hz", {Relief::kCamera, Relief::kCameraClock}};
+  if (config.exposure_ns > 0) cameras.key = "camera.exposure_ns, clocks.camera_hz";
+  if (config.frame_rate == 0 && config.skew_ns > 0) cameras.key += ", camera.skew_ns";
+  cameras.core_waits = config.early_start_rows > 0;
+  std::vector<Part> parts{cameras};
+  if (config.frame_rate > 0) {
+    parts.push_back({PartKind::kCameraRate, "camera_frame_rate", "camera.frame_rate", {Relief::kCamera}});
+  }
+  return parts;
 }
 
 const MemoryMap::FrameBuffer& Acquisition::buffer(std::int64_t frame) const {

@@ -6,12 +6,16 @@
 #include <memory>
 #include <optional>
 #include <systemc>
+#include <vector>
 
 #include "platform/config/machine_config.hpp"
 #include "platform/machine/camera_trigger.hpp"
 #include "platform/machine/frame.hpp"
 #include "platform/machine/machine_input.hpp"
+#include "platform/machine/machine_snapshot.hpp"
 #include "platform/machine/memory_map.hpp"
+#include "platform/machine/memory_port.hpp"
+#include "platform/machine/part.hpp"
 #include "platform/machine/sensor.hpp"
 #include "tlm/dma.hpp"
 
@@ -48,8 +52,10 @@ class Acquisition final : public sc_core::sc_module {
   const std::shared_ptr<TransferProgress>& right_progress() const { return right_progress_; }
   std::uint64_t bursts_before(std::int64_t frame) const;
 
-  BusMaster& left_master() { return dma_left_.master; }
-  BusMaster& right_master() { return dma_right_.master; }
+  /// camera_left, camera_right.
+  std::vector<MemoryPort>& ports() { return ports_; }
+  /// The cameras, and the rate that they are set to, if any.
+  std::vector<Part> parts() const;
   const Sensor& sensor() const { return left_sensor_; }
   /// Until now.
   CameraCounts counts();
@@ -84,6 +90,7 @@ class Acquisition final : public sc_core::sc_module {
   std::shared_ptr<TransferProgress> right_progress_;
   Stream<std::uint8_t> left_bursts_;
   Stream<std::uint8_t> right_bursts_;
+  std::vector<MemoryPort> ports_;
 
   sc_core::sc_event frame_complete_;  // both images are in memory
   std::int64_t buffers_used_ = 0;     // frames from exposure until both images are read

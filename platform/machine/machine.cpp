@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "modules/output_packing.hpp"
-#include "platform/machine/engine_config.hpp"
+#include "platform/machine/steady_state.hpp"
 #include "tlm/bus_scheduler.hpp"
 #include "tlm/dram_scheduler.hpp"
 
@@ -43,14 +43,6 @@ constexpr std::int64_t kShortestPause = 1000;  // ns, before software tries agai
 
 }  // namespace
 
-std::int64_t warm_up_frames(const MachineConfig& config) {
-  return std::int64_t{config.camera.frame_buffers} + config.link.output_buffers;
-}
-
-std::size_t steady_first(const MachineConfig& config, std::int64_t frames) {
-  return static_cast<std::size_t>(std::max<std::int64_t>(0, std::min(warm_up_frames(config), frames - 2)));
-}
-
 Machine::Machine(const sc_core::sc_module_name& name, const MachineConfig& config, const MachineInput& input)
     : sc_module(name),
       config_(config),
@@ -81,8 +73,8 @@ Machine::Machine(const sc_core::sc_module_name& name, const MachineConfig& confi
                     [this](std::int64_t frame) { frame_in_memory(frame); },
                     [this](CameraFault fault) { control_.frame_faulty(fault); }}),
       core_("core", config_, input_, {tiles_, map()}, core_clock_, dataflow_),
-      transmission_("transmission", config_, link_clock_, dataflow_),
-      ports_(make_ports()),
+      transmission_("transmission", config_, input.width, input.height, link_clock_, dataflow_),
+      ports_(collect_ports()),
       facts_(core_facts()),
       control_(
           "control", config_, facts_,
@@ -91,13 +83,13 @@ Machine::Machine(const sc_core::sc_module_name& name, const MachineConfig& confi
       latencies_(steady_first(config, input.frames)) {
   const auto kept = static_cast<std::size_t>(warm_up_frames(config)) + kRecords;
   times_.keep(kept);
-  activities_.keep(kept);
+  snapshots_.keep(kept);
   core_.pipeline().keep_frames(kept);
-  for (const Port& port : ports_) {
+  for (const MemoryPort* port : ports_) {
     if (memory_) {
-      port.master->socket.bind(memory_->socket);
+      port->master->socket.bind(memory_->socket);
     } else {
-      input.bind_memory(port.master->socket, port.name);
+      input.bind_memory(port->master->socket, port->name);
     }
   }
   driver_.socket.bind(control_.bank.socket);
@@ -110,6 +102,8 @@ Machine::Machine(const sc_core::sc_module_name& name, const MachineConfig& confi
 
 // The map is there before the first frame.
 void Machine::start_of_simulation() {
+  core_.find_stages();
+  parts_ = collect_parts();
   if (input_.timing_only) return;
   ::tlm::tlm_generic_payload payload;
   std::vector<std::uint8_t> map_bytes = map().bytes;
@@ -118,7 +112,7 @@ void Machine::start_of_simulation() {
   payload.set_data_ptr(map_bytes.data());
   payload.set_data_length(static_cast<unsigned>(map_bytes.size()));
   payload.set_streaming_width(payload.get_data_length());
-  core_.map_master().socket->transport_dbg(payload);
+  core_.map_port().master->socket->transport_dbg(payload);
 }
 
 void Machine::tell(std::int64_t frame, FrameStep step) {
@@ -223,13 +217,12 @@ CoreFacts Machine::core_facts() {
   const auto port = [](BusMaster& master, const DmaPortConfig& config) {
     return CoreFacts::Port{&master, config.outstanding};
   };
-  facts.left = port(core_.left_master(), config_.dma.left);
-  facts.right = port(core_.right_master(), config_.dma.right);
-  facts.map = port(core_.map_master(), config_.dma.map);
-  facts.output = port(core_.output_master(), config_.dma.output);
-  for (const Port& p : ports_) {
-    if (p.engine == "buffer") facts.buffer.push_back({p.master, p.places});
-  }
+  const std::vector<MemoryPort>& ports = core_.ports();
+  facts.left = port(*ports[0].master, config_.dma.left);
+  facts.right = port(*ports[1].master, config_.dma.right);
+  facts.map = port(*ports[2].master, config_.dma.map);
+  facts.output = port(*ports[3].master, config_.dma.output);
+  for (const MemoryPort& p : core_.buffer_ports()) facts.buffer.push_back({p.master, p.slots});
   return facts;
 }
 
@@ -295,7 +288,7 @@ void Machine::deliver(std::int64_t frame, const std::vector<std::uint8_t>& bytes
   times.at_host = sc_core::sc_time_stamp();
   tell(frame, FrameStep::kAtHost);
   latencies_.add(static_cast<std::size_t>(frame), times);
-  activities_.push_back(activity());
+  snapshots_.push_back(snapshot());
   --output_buffers_used_;
   start_when_possible();
   FrameResult result;
@@ -325,27 +318,46 @@ void Machine::deliver(std::int64_t frame, const std::vector<std::uint8_t>& bytes
   input_.finished ? input_.finished() : sc_core::sc_stop();
 }
 
-std::vector<Machine::Port> Machine::make_ports() {
-  // A reading engine has no more requests under way than its FIFO can take answers.
-  const auto reading = [](const DmaPortConfig& port) {
-    return std::min(port.outstanding, engine_config(port).fifo_bursts);
+std::vector<MemoryPort*> Machine::collect_ports() {
+  std::vector<MemoryPort*> all;
+  const auto add = [&all](MemoryPort& port) {
+    port.number = all.size();
+    all.push_back(&port);
   };
-  const DmaConfig& dma = config_.dma;
-  std::vector<Port> ports{{"camera_left", "camera", &acquisition_.left_master(), dma.camera.outstanding},
-                          {"camera_right", "camera", &acquisition_.right_master(), dma.camera.outstanding},
-                          {"left", "left", &core_.left_master(), reading(dma.left)},
-                          {"right", "right", &core_.right_master(), reading(dma.right)},
-                          {"map", "map", &core_.map_master(), reading(dma.map)},
-                          {"output", "output", &core_.output_master(), dma.output.outstanding},
-                          {"link", "link", &transmission_.master(), reading(dma.link)}};
-  const auto add = [&](const char* name, BusMaster* master, std::uint32_t places) {
-    if (master != nullptr) ports.push_back({name, "buffer", master, places});
+  for (MemoryPort& port : acquisition_.ports()) add(port);
+  for (MemoryPort& port : core_.ports()) add(port);
+  add(transmission_.port());
+  for (MemoryPort& port : core_.buffer_ports()) add(port);
+  return all;
+}
+
+std::vector<Part> Machine::collect_parts() const {
+  std::vector<Part> all;
+  const auto add = [&all](const std::vector<Part>& parts) {
+    all.insert(all.end(), parts.begin(), parts.end());
   };
-  add("buffer_row_write", core_.rows_write_master(), dma.buffer.outstanding);
-  add("buffer_row_read", core_.rows_read_master(), reading(dma.buffer));
-  add("buffer_frame_write", core_.frame_write_master(), dma.buffer.outstanding);
-  add("buffer_frame_read", core_.frame_read_master(), reading(dma.buffer));
-  return ports;
+  if (memory_) {
+    Part memory{PartKind::kMemory,
+                "memory",
+                config_.memory.model == MemoryModel::kDram ? "memory.device" : "memory.bytes_per_cycle",
+                {Relief::kMemory, Relief::kMemoryClock}};
+    memory.core_waits = true;
+    all.push_back(memory);
+  }
+  add(acquisition_.parts());
+  for (const MemoryPort* port : ports_) all.push_back(port->part());
+  if (config_.software.response_ns > 0) {
+    all.push_back({PartKind::kSoftware, "software", "software.response_ns", {Relief::kSoftware}});
+  }
+  add(core_.parts());
+  add(transmission_.parts());
+  return all;
+}
+
+const Part* Machine::find_part(const std::string& name) const {
+  const auto found =
+      std::find_if(parts_.begin(), parts_.end(), [&](const Part& p) { return p.name == name; });
+  return found == parts_.end() ? nullptr : &*found;
 }
 
 sc_core::sc_time Machine::core_taken() const {
@@ -353,27 +365,27 @@ sc_core::sc_time Machine::core_taken() const {
   return core_taken_ + (sc_core::sc_time_stamp() - core_taken_since_);
 }
 
-Activity Machine::activity() {
-  Activity activity;
-  activity.time = sc_core::sc_time_stamp();
+MachineSnapshot Machine::snapshot() {
+  MachineSnapshot snapshot;
+  snapshot.time = sc_core::sc_time_stamp();
   for (std::size_t port = 0; port < ports_.size(); ++port) {
-    const BusMaster& master = *ports_[port].master;
-    activity.ports.push_back(
+    const BusMaster& master = *ports_[port]->master;
+    snapshot.ports.push_back(
         {master.statistics().bytes, memory_ ? memory_->bus_taken(port) : Cycles(0), master.occupied()});
   }
   if (memory_) {
-    activity.memory = memory_->at_work();
-    if (const DramStatistics* commands = memory_->commands()) activity.dram = *commands;
+    snapshot.memory = memory_->at_work();
+    if (const DramStatistics* commands = memory_->commands()) snapshot.dram = *commands;
   }
-  activity.camera = sensor().busy();
-  activity.cameras = acquisition_.counts();
-  activity.software = starting_time_ + (starting_ ? activity.time - starting_since_ : sc_core::SC_ZERO_TIME);
-  activity.core = core_taken();
+  snapshot.camera = sensor().busy();
+  snapshot.cameras = acquisition_.counts();
+  snapshot.software = starting_time_ + (starting_ ? snapshot.time - starting_since_ : sc_core::SC_ZERO_TIME);
+  snapshot.core = core_taken();
   note_output_full(output_full_);
-  activity.output_full = output_full_time_;
-  activity.wire = link().wire_busy();
-  activity.host = link().host_busy();
-  return activity;
+  snapshot.output_full = output_full_time_;
+  snapshot.wire = link().wire_busy();
+  snapshot.host = link().host_busy();
+  return snapshot;
 }
 
 }  // namespace parallax

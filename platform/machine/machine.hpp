@@ -13,7 +13,10 @@
 #include "platform/machine/frame.hpp"
 #include "platform/machine/frame_latencies.hpp"
 #include "platform/machine/machine_input.hpp"
+#include "platform/machine/machine_snapshot.hpp"
 #include "platform/machine/memory_map.hpp"
+#include "platform/machine/memory_port.hpp"
+#include "platform/machine/part.hpp"
 #include "platform/machine/stereo_core.hpp"
 #include "platform/machine/tile_plan.hpp"
 #include "platform/machine/transmission.hpp"
@@ -23,14 +26,6 @@
 #include "tlm/memory.hpp"
 
 namespace parallax {
-
-/// Frames until all buffers have been filled and handed on once; before that the rate is that of buffers
-/// filling.
-std::int64_t warm_up_frames(const MachineConfig& config);
-
-/// Number of the first frame of the steady state in a run of `frames`; where that is shorter than the
-/// warm-up, of its last but one.
-std::size_t steady_first(const MachineConfig& config, std::int64_t frames);
 
 /// The whole machine: acquisition, memory, stereo core, transmission, and what hands frames from one to the
 /// next. Several frames are in flight: one is read out while another is processed and a third
@@ -52,7 +47,7 @@ class Machine final : public sc_core::sc_module {
   /// runs the first and the last frames only, at least 160 beyond the warm-up.
   const KeptRecords<FrameTimes>& times() const { return times_; }
   /// What had happened when the host had a frame, an entry for each frame delivered; kept likewise.
-  const KeptRecords<Activity>& activities() const { return activities_; }
+  const KeptRecords<MachineSnapshot>& snapshots() const { return snapshots_; }
   /// Of all frames delivered.
   const FrameLatencies& latencies() const { return latencies_; }
   const Pipeline& pipeline() const { return core_.pipeline(); }
@@ -64,15 +59,15 @@ class Machine final : public sc_core::sc_module {
   RegisterBank& registers() { return control_.bank; }
   /// Starts that the core has refused (an initiator has switched it off, say); software tries again.
   std::int64_t rejected_starts() const { return rejected_starts_; }
-  /// The DMA engines' side of a memory port.
-  struct Port {
-    std::string name;
-    std::string engine;  ///< its keys are dma.<engine>.*
-    BusMaster* master;
-    std::uint32_t places;  ///< requests that it can have under way
-  };
   /// In the order of the memory's statistics.
-  const std::vector<Port>& ports() const { return ports_; }
+  const std::vector<MemoryPort*>& ports() const { return ports_; }
+  /// The port that brings the rectification map.
+  const MemoryPort& map_port() const { return core_.map_port(); }
+  /// All that can limit the frame rate, in the order in which data meets them: memory, cameras, DMA engines,
+  /// software, core, stages, link, host. From the start of the simulation on.
+  const std::vector<Part>& parts() const { return parts_; }
+  /// By the name in results; null if there is none of that name.
+  const Part* find_part(const std::string& name) const;
   const TilePlan& tiles() const { return tiles_; }
   /// The rectification map as it lies in memory: cut for the tiles.
   const EncodedMap& map() const { return tiles_.tiles.size() > 1 ? tiled_map_ : *input_.map; }
@@ -97,8 +92,9 @@ class Machine final : public sc_core::sc_module {
   void deliver(std::int64_t frame, const std::vector<std::uint8_t>& bytes);
   std::uint64_t output_buffer(std::int64_t frame) const;
   void start_of_simulation() override;
-  std::vector<Port> make_ports();
-  Activity activity();
+  std::vector<MemoryPort*> collect_ports();
+  std::vector<Part> collect_parts() const;
+  MachineSnapshot snapshot();
   sc_core::sc_time core_taken() const;
   void note_output_full(bool full);
 
@@ -116,13 +112,14 @@ class Machine final : public sc_core::sc_module {
   Acquisition acquisition_;
   StereoCore core_;
   Transmission transmission_;
-  const std::vector<Port> ports_;
+  const std::vector<MemoryPort*> ports_;
   const CoreFacts facts_;
   ControlBlocks control_;
   CoreDriver driver_;
 
+  std::vector<Part> parts_;
   KeptRecords<FrameTimes> times_;
-  KeptRecords<Activity> activities_;
+  KeptRecords<MachineSnapshot> snapshots_;
   FrameLatencies latencies_;
   std::vector<bool> values_;         // whether a frame carries images
   std::int64_t in_memory_ = 0;       // frames

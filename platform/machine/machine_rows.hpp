@@ -2,7 +2,6 @@
 #pragma once
 
 #include <memory>
-#include <string>
 #include <unordered_map>
 
 #include "platform/machine/machine.hpp"
@@ -11,7 +10,8 @@
 
 namespace parallax {
 
-/// Where the image's rows are in what passes the parts of a machine.
+/// Where the image's rows are in what passes the stages and streams of a machine, after elaboration; those of
+/// its memory's ports are MemoryPort::rows.
 class MachineRows {
  public:
   explicit MachineRows(const Machine& machine);
@@ -20,8 +20,6 @@ class MachineRows {
   std::shared_ptr<const RowEnds> of(const StreamBase& stream) const;
   /// Of a stage's firings.
   StagePorts of(const StageInfo& info) const;
-  /// Of a memory port's bytes, in the order in which its engine moves them.
-  std::shared_ptr<const RowEnds> of(const Machine::Port& port) const;
 
  private:
   void add(const StreamBase& stream, std::uint64_t tokens_of_a_frame);
@@ -29,7 +27,8 @@ class MachineRows {
   const Machine& machine_;
   const std::int32_t height_;
   const std::int32_t tiles_;
-  const std::uint64_t width_;  // of a tile
+  const std::uint64_t width_;              // of a tile
+  const StreamBase* map_words_ = nullptr;  // the compressed map: the one stream whose rows differ in length
   std::unordered_map<const StreamBase*, std::shared_ptr<const RowEnds>> streams_;
 };
 

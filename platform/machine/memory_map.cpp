@@ -71,6 +71,18 @@ class Layout {
 
 }  // namespace
 
+const char* name_of(BufferKind kind) {
+  switch (kind) {
+    case BufferKind::kLeft:
+      return "left";
+    case BufferKind::kRight:
+      return "right";
+    case BufferKind::kOutput:
+      return "output";
+  }
+  return "";
+}
+
 MemoryMap lay_out_memory(const MachineConfig& config, int width, int height, const EncodedMap& map,
                          const MatcherStore& store) {
   const std::uint64_t image =

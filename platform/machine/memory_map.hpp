@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -9,6 +10,12 @@
 #include "platform/machine/matcher_store.hpp"
 
 namespace parallax {
+
+/// Buffers in memory that one side fills and another empties, each of one image.
+enum class BufferKind { kLeft, kRight, kOutput };
+
+/// "left", "right", "output".
+const char* name_of(BufferKind kind);
 
 /// Where the buffers lie in memory, as MachineConfig::memory_map says.
 struct MemoryMap {
@@ -20,6 +27,10 @@ struct MemoryMap {
   std::uint64_t map = 0;               ///< the compressed rectification map
   std::vector<std::uint64_t> outputs;  ///< packed results (modules/output_packing.hpp)
   std::uint64_t buffer = 0;            ///< MatcherStore, if anything is kept
+
+  std::size_t number_of(BufferKind kind) const {
+    return kind == BufferKind::kOutput ? outputs.size() : frames.size();
+  }
 };
 
 /// Throws UserError when a buffer does not fit into the memory, or two overlap, with the arithmetic.

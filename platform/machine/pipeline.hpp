@@ -24,25 +24,13 @@
 #include "modules/uniqueness_stage.hpp"
 #include "platform/config/machine_config.hpp"
 #include "platform/machine/matcher_store.hpp"
+#include "platform/machine/stage_info.hpp"
 #include "platform/machine/tile_plan.hpp"
 #include "platform/registers/algorithm_parameters.hpp"
 #include "tlm/dma.hpp"
 #include "tlm/unpacker.hpp"
 
 namespace parallax {
-
-/// A stage with what it declares, for reports.
-struct StageInfo {
-  const Stage* stage;
-  Bits storage;            ///< line buffers and the like, beside the FIFOs
-  std::size_t passes = 1;  ///< times that the stage goes through its schedule for one frame
-  bool enabled = true;     ///< false: a filter that is off, so that tokens pass it as they are
-
-  std::uint64_t cycles_per_frame() const { return stage->schedule().cycles() * passes; }
-  /// Dates of the first or the last pass over frame `frame`.
-  const FrameDates& first_pass(std::size_t frame) const { return stage->frames()[frame * passes]; }
-  const FrameDates& last_pass(std::size_t frame) const { return stage->frames()[(frame + 1) * passes - 1]; }
-};
 
 /// The stereo pipeline, from the bursts of the three input ports to those of the output port: the stages, and
 /// the streams between them. This is the one place that knows which stage follows which.

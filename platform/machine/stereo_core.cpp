@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <initializer_list>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -14,7 +16,7 @@
 namespace parallax {
 namespace {
 
-std::vector<std::uint32_t> equal_rows(int rows, std::size_t bytes) {
+std::vector<std::uint32_t> row_lengths(int rows, std::size_t bytes) {
   return std::vector<std::uint32_t>(static_cast<std::size_t>(rows), static_cast<std::uint32_t>(bytes));
 }
 
@@ -51,6 +53,7 @@ StereoCore::StereoCore(const sc_core::sc_module_name& name, const MachineConfig&
       input_(input),
       map_(map),
       format_(config.camera.format),
+      queue_frames_(config.software.queue_frames),
       output_left_(config.link.output_left()),
       dma_left_("dma_left", engine_config(config.dma.left), clock),
       dma_right_("dma_right", engine_config(config.dma.right), clock),
@@ -72,6 +75,98 @@ StereoCore::StereoCore(const sc_core::sc_module_name& name, const MachineConfig&
     frame_ = std::make_unique<StorePorts>("buffer_frame", config.dma.buffer, clock, dataflow);
     pipeline_.bind_frame(frame_->write.in_bursts, frame_->read.out_bursts);
   }
+  make_ports(config.dma);
+}
+
+void StereoCore::make_ports(const DmaConfig& config) {
+  const auto shared = [](RowEnds rows) { return std::make_shared<const RowEnds>(std::move(rows)); };
+  const std::vector<Tile>& tiles = map_.tiles.tiles;
+  const auto tile_count = static_cast<std::int32_t>(tiles.size());
+  const auto rows = static_cast<std::size_t>(input_.height);
+  ports_ = {{"left", "left", dma_left_, config.left},
+            {"right", "right", dma_right_, config.right},
+            {"map", "map", dma_map_, config.map},
+            {"output", "output", dma_output_, config.output}};
+  const std::uint64_t image_row = bytes_of(format_, static_cast<std::uint64_t>(map_.tiles.width));
+  ports_[0].buffer = BufferKind::kLeft;
+  ports_[1].buffer = BufferKind::kRight;
+  ports_[0].rows = ports_[1].rows = shared(equal_rows(image_row, input_.height, tile_count));
+  const std::vector<std::uint32_t>& map_rows = map_.map.row_bytes;
+  ports_[2].rows = shared(rows_of_lengths({map_rows.begin(), map_rows.end()}, input_.height));
+  std::vector<std::uint64_t> lengths;
+  for (const Tile& tile : tiles) {
+    lengths.insert(lengths.end(), rows, output_job(tile).row_bytes.front());
+  }
+  ports_[3].buffer = BufferKind::kOutput;
+  ports_[3].rows = shared(rows_of_lengths(lengths, input_.height));
+  const auto add = [&](const std::string& name, StorePorts* store, const StoreLayout& layout) {
+    if (store == nullptr) return;
+    std::vector<std::uint64_t> kept;  // of a tile
+    for (const StoreLayout::Pass& pass : layout.passes) {
+      if (pass.record_bytes > 0) kept.insert(kept.end(), pass.rows, layout.row_bytes(pass));
+    }
+    std::vector<std::uint64_t> all;
+    for (std::size_t tile = 0; tile < tiles.size(); ++tile) all.insert(all.end(), kept.begin(), kept.end());
+    const auto ends = shared(rows_of_lengths(all, static_cast<std::int32_t>(kept.size())));
+    for (MemoryPort port : {MemoryPort(name + "_write", "buffer", store->write, config.buffer),
+                            MemoryPort(name + "_read", "buffer", store->read, config.buffer)}) {
+      port.rows = ends;
+      port.relieved_by.insert(port.relieved_by.end(), {Relief::kBufferPort, Relief::kPathStorage});
+      buffer_ports_.push_back(std::move(port));
+    }
+  };
+  add("buffer_row", rows_.get(), pipeline_.store().rows);
+  add("buffer_frame", frame_.get(), pipeline_.store().frame);
+}
+
+// The stage that reads or writes the stream that the engine is bound to.
+void StereoCore::find_stages() {
+  const std::vector<StageInfo> stages = pipeline_.stages();
+  const auto find = [&](MemoryPort& port, StreamPort& bursts) {
+    const StreamBase* const stream = bursts.streams().front();
+    for (const StageInfo& info : stages) {
+      for (unsigned number = 0; number < Stage::kMaxPorts; ++number) {
+        const auto bound = port.direction == MemoryPort::Direction::kReads
+                               ? info.stage->input_streams(number)
+                               : info.stage->output_streams(number);
+        if (std::find(bound.begin(), bound.end(), stream) != bound.end()) port.stage = info;
+      }
+    }
+  };
+  find(ports_[0], dma_left_.out_bursts);
+  find(ports_[1], dma_right_.out_bursts);
+  find(ports_[2], dma_map_.out_bursts);
+  find(ports_[3], dma_output_.in_bursts);
+  std::size_t next = 0;
+  for (StorePorts* store : {rows_.get(), frame_.get()}) {
+    if (store == nullptr) continue;
+    find(buffer_ports_[next++], store->write.in_bursts);
+    find(buffer_ports_[next++], store->read.out_bursts);
+  }
+}
+
+std::vector<Part> StereoCore::parts() const {
+  std::vector<Part> parts;
+  if (!queue_frames_) {
+    parts.push_back({PartKind::kCore,
+                     "core",
+                     "clocks.core_hz, software.response_ns",
+                     {Relief::kCoreClock, Relief::kSoftware, Relief::kMatchingInterval}});
+  }
+  for (const StageInfo& info : pipeline_.stages()) {
+    Part part{PartKind::kStage, info.stage->basename(), "clocks.core_hz", {Relief::kCoreClock}};
+    part.stage = info;
+    const auto add = [&part](std::initializer_list<Relief> reliefs) {
+      part.relieved_by.insert(part.relieved_by.end(), reliefs);
+    };
+    if (info.stage == &pipeline_.matcher()) add({Relief::kMatchingInterval});
+    const auto feeds = [&](const MemoryPort& port) { return port.stage && port.stage->stage == info.stage; };
+    if (std::any_of(buffer_ports_.begin(), buffer_ports_.end(), feeds)) {
+      add({Relief::kBufferPort, Relief::kPathStorage});
+    }
+    parts.push_back(std::move(part));
+  }
+  return parts;
 }
 
 void StereoCore::start(const CoreJob& job) {
@@ -86,7 +181,7 @@ void StereoCore::start_input(const CoreJob& job) {
   const auto bytes = [this](int pixels) { return bytes_of(format_, static_cast<std::uint64_t>(pixels)); };
   for (const Tile& tile : map_.tiles.tiles) {
     DmaJob image;
-    image.row_bytes = equal_rows(input_.height, bytes(map_.tiles.width));
+    image.row_bytes = row_lengths(input_.height, bytes(map_.tiles.width));
     image.values = job.values;
     if (map_.tiles.tiles.size() > 1) image.pitch = bytes(input_.width);
     if (&tile == &map_.tiles.tiles.back()) image.done = read;
@@ -111,7 +206,7 @@ DmaJob StereoCore::output_job(const Tile& tile) const {
   const auto output_bytes = [this](int pixels) { return OutputPacking::row_bytes(pixels, output_left_); };
   DmaJob result;
   result.address = output_bytes(tile.keep_begin);
-  result.row_bytes = equal_rows(input_.height, output_bytes(tile.keep_end - tile.keep_begin));
+  result.row_bytes = row_lengths(input_.height, output_bytes(tile.keep_end - tile.keep_begin));
   if (map_.tiles.tiles.size() > 1) result.pitch = output_bytes(input_.width);
   return result;
 }

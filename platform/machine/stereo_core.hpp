@@ -6,9 +6,12 @@
 #include <memory>
 #include <string>
 #include <systemc>
+#include <vector>
 
 #include "platform/machine/machine_input.hpp"
 #include "platform/machine/memory_map.hpp"
+#include "platform/machine/memory_port.hpp"
+#include "platform/machine/part.hpp"
 #include "platform/machine/pipeline.hpp"
 #include "platform/registers/algorithm_parameters.hpp"
 #include "tlm/dma.hpp"
@@ -68,17 +71,20 @@ class StereoCore final : public sc_core::sc_module {
 
   Pipeline& pipeline() { return pipeline_; }
   const Pipeline& pipeline() const { return pipeline_; }
-  BusMaster& left_master() { return dma_left_.master; }
-  BusMaster& right_master() { return dma_right_.master; }
-  BusMaster& map_master() { return dma_map_.master; }
-  BusMaster& output_master() { return dma_output_.master; }
-  /// Of writing and reading back the matcher's rows and its frame, as far as it keeps them; else null.
-  BusMaster* rows_write_master() { return rows_ ? &rows_->write.master : nullptr; }
-  BusMaster* rows_read_master() { return rows_ ? &rows_->read.master : nullptr; }
-  BusMaster* frame_write_master() { return frame_ ? &frame_->write.master : nullptr; }
-  BusMaster* frame_read_master() { return frame_ ? &frame_->read.master : nullptr; }
+  /// left, right, map, output.
+  std::vector<MemoryPort>& ports() { return ports_; }
+  /// The port that brings the rectification map.
+  const MemoryPort& map_port() const { return ports_[2]; }
+  /// Those that write and read back what the matcher keeps in memory, as far as it does: buffer_row_write,
+  /// buffer_row_read, buffer_frame_write, buffer_frame_read.
+  std::vector<MemoryPort>& buffer_ports() { return buffer_ports_; }
+  /// Tells the ports which stage is at their other end; when all is bound.
+  void find_stages();
+  /// Every stage; before them the core as a whole, unless frames queue in it. After find_stages().
+  std::vector<Part> parts() const;
 
  private:
+  void make_ports(const DmaConfig& config);
   void start_input(const CoreJob& job);
   void start_output(const CoreJob& job);
   void start_store(const CoreJob& job);
@@ -96,6 +102,7 @@ class StereoCore final : public sc_core::sc_module {
   const MachineInput& input_;
   const CoreMap map_;
   const PixelFormat format_;
+  const bool queue_frames_;
   const OutputLeft output_left_;
   DmaReader dma_left_;
   DmaReader dma_right_;
@@ -107,6 +114,8 @@ class StereoCore final : public sc_core::sc_module {
   std::shared_ptr<TransferProgress> output_progress_;
   std::unique_ptr<StorePorts> rows_;   // if the matcher keeps rows
   std::unique_ptr<StorePorts> frame_;  // if it keeps a frame
+  std::vector<MemoryPort> ports_;
+  std::vector<MemoryPort> buffer_ports_;
 };
 
 }  // namespace parallax

@@ -8,6 +8,8 @@
 
 #include "platform/config/machine_config.hpp"
 #include "platform/machine/ethernet_link.hpp"
+#include "platform/machine/memory_port.hpp"
+#include "platform/machine/part.hpp"
 #include "tlm/dma.hpp"
 
 namespace parallax {
@@ -16,21 +18,25 @@ namespace parallax {
 /// link the results stay in memory and count as sent when they are there.
 class Transmission final : public sc_core::sc_module {
  public:
-  Transmission(const sc_core::sc_module_name& name, const MachineConfig& config, const ClockDomain& clock,
-               Dataflow& dataflow);
+  /// Of images of `width` * `height` px.
+  Transmission(const sc_core::sc_module_name& name, const MachineConfig& config, int width, int height,
+               const ClockDomain& clock, Dataflow& dataflow);
 
   /// Sends results that are complete in memory. `sent` is called with their bytes (none without values) when
   /// the last one is on the wire.
   void start(DmaJob job, std::function<void(const std::vector<std::uint8_t>& bytes)> sent);
 
   const EthernetLink& link() const { return link_; }
-  BusMaster& master() { return dma_.master; }
+  MemoryPort& port() { return port_; }
+  /// The link and the host, unless the link is off.
+  std::vector<Part> parts() const;
 
  private:
   const bool enabled_;
   DmaReader dma_;
   EthernetLink link_;
   Stream<std::uint8_t> bursts_;
+  MemoryPort port_;
 };
 
 }  // namespace parallax

@@ -17,27 +17,27 @@ double count_of(unsigned set) {
   return count;
 }
 
-struct StageActivity {  // of one frame
-  double bits_read = 0;
-  double fifo_bits = 0;  // written and read
+struct StageBits {  // of one frame
+  double read = 0;
+  double fifo = 0;  // written and read
 };
 
 // FIFOs to and from memory ports are left out: what they move is what the ports count.
-StageActivity stage_activity(const StageInfo& info) {
+StageBits stage_bits(const StageInfo& info) {
   const Schedule& schedule = info.stage->schedule();
-  StageActivity activity;
+  StageBits bits;
   for (unsigned port = 0; port < Stage::kMaxPorts; ++port) {
     const double read = static_cast<double>(schedule.consumed(port) * info.passes);
     for (const StreamBase* stream : info.stage->input_streams(port)) {
-      if (!stream->at_memory()) activity.bits_read += read * static_cast<double>(stream->width().count());
+      if (!stream->at_memory()) bits.read += read * static_cast<double>(stream->width().count());
     }
     const double written = static_cast<double>(schedule.produced(port) * info.passes);
     for (const StreamBase* stream : info.stage->output_streams(port)) {
-      if (!stream->at_memory()) activity.fifo_bits += written * static_cast<double>(stream->width().count());
+      if (!stream->at_memory()) bits.fifo += written * static_cast<double>(stream->width().count());
     }
   }
-  activity.fifo_bits += activity.bits_read;
-  return activity;
+  bits.fifo += bits.read;
+  return bits;
 }
 
 // What each frame does in the core, for `activity.frames` of them.
@@ -51,10 +51,10 @@ void add_core(EnergyActivity& activity, const Machine& machine) {
   activity.path_updates = activity.frames * evaluations * count_of(config.matching.paths);
   double bits = 0;
   for (const StageInfo& info : machine.pipeline().stages()) {
-    const StageActivity stage = stage_activity(info);
+    const StageBits stage = stage_bits(info);
     if (info.stage != &machine.pipeline().matcher() && info.enabled)
-      activity.stage_bits += activity.frames * stage.bits_read;
-    bits += stage.fifo_bits + 2 * static_cast<double>(info.storage.count()) * rows;
+      activity.stage_bits += activity.frames * stage.read;
+    bits += stage.fifo + 2 * static_cast<double>(info.storage.count()) * rows;
   }
   activity.on_chip_bytes += activity.frames * bits / kBitsPerByte;
 }
@@ -62,19 +62,19 @@ void add_core(EnergyActivity& activity, const Machine& machine) {
 }  // namespace
 
 EnergyActivity energy_activity(const Machine& machine, const SteadyWindow& window) {
-  const Activity& last = machine.activities()[window.last];
-  Activity first;
+  const MachineSnapshot& last = machine.snapshots()[window.last];
+  MachineSnapshot first;
   first.ports.resize(last.ports.size());
-  if (window.frames() > 0) first = machine.activities()[window.first];
+  if (window.frames() > 0) first = machine.snapshots()[window.first];
 
   EnergyActivity activity;
   activity.seconds = (last.time - first.time).to_seconds();
   activity.frames = static_cast<double>(std::max<std::size_t>(1, window.frames()));
   activity.core_cycles = activity.seconds * static_cast<double>(machine.config().clocks.core_hz);
-  for (std::size_t port = 0; port < last.ports.size(); ++port) {
-    const auto bytes = static_cast<double>(last.ports[port].bytes - first.ports[port].bytes);
+  for (const MemoryPort* port : machine.ports()) {
+    const auto bytes = static_cast<double>(last.ports[port->number].bytes - first.ports[port->number].bytes);
     activity.memory_bytes += bytes;
-    if (machine.ports()[port].engine == "camera") activity.camera_bytes += bytes;
+    if (port->from_camera()) activity.camera_bytes += bytes;
   }
   if (machine.memory() != nullptr && machine.memory()->commands() != nullptr) {
     activity.rows_opened = static_cast<double>(last.dram.activates - first.dram.activates);

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "platform/results/memory_metrics.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
-#include "platform/machine/machine_rows.hpp"
 #include "platform/results/stage_time.hpp"
 
 namespace parallax {
@@ -16,17 +13,12 @@ double seconds(const sc_core::sc_time& time) { return time.to_seconds(); }
 // Cycles in which a port of the core held up the stage at its other end.
 void add_stalls(MetricGroup& memory, const Machine& machine, const SteadyWindow& window) {
   const double frames = static_cast<double>(std::max<std::size_t>(1, window.frames()));
-  for (const auto& [port, stage] :
-       {std::pair{"left", "unpack_left"}, std::pair{"right", "unpack_right"}, std::pair{"map", "unpack_map"},
-        std::pair{"output", "output_packing"}, std::pair{"buffer_row_write", "pack_rows"},
-        std::pair{"buffer_row_read", "unpack_rows"}, std::pair{"buffer_frame_write", "pack_frame"},
-        std::pair{"buffer_frame_read", "unpack_frame"}}) {
-    for (const StageInfo& info : machine.pipeline().stages()) {
-      if (info.stage->basename() != std::string(stage)) continue;
-      memory.group(port).add(
-          {"stalls", static_cast<double>(stage_time(info, window).memory.count()) / frames, "cycles",
-           "Core cycles a frame in which this port held back the stage next to it.", window.text});
-    }
+  for (const MemoryPort* port : machine.ports()) {
+    if (!port->stage) continue;
+    memory.group(port->name)
+        .add({"stalls", static_cast<double>(stage_time(*port->stage, window).memory.count()) / frames,
+              "cycles", "Core cycles a frame in which this port held back the stage next to it.",
+              window.text});
   }
 }
 
@@ -79,31 +71,31 @@ void add_dram(MetricGroup& memory, const DramStatistics& first, const DramStatis
 void add_memory(MetricGroup& root, const Machine& machine, const SteadyWindow& window) {
   MetricGroup& memory = root.group("memory");
   const Memory* model = machine.memory();
-  const std::vector<Machine::Port>& ports = machine.ports();
-  Activity first;  // the beginning of the run
-  first.ports.resize(ports.size());
-  if (window.frames() > 0) first = machine.activities()[window.first];
-  const Activity& last = machine.activities()[window.last];
+  MachineSnapshot first;  // the beginning of the run
+  first.ports.resize(machine.ports().size());
+  if (window.frames() > 0) first = machine.snapshots()[window.first];
+  const MachineSnapshot& last = machine.snapshots()[window.last];
   const double elapsed = seconds(last.time - first.time);
   const auto share = [&](Cycles taken) {
     const Cycles cycles = model->cycle_at_or_after(last.time) - model->cycle_at_or_after(first.time);
     return 100.0 * (static_cast<double>(taken.count()) /
                     static_cast<double>(std::max<std::int64_t>(1, cycles.count())));
   };
-  const MachineRows rows(machine);
   std::uint64_t total = 0;
   Cycles total_bus;  // whole cycles, so that a bus that is always taken is so for 100 %
-  for (std::size_t id = 0; id < ports.size(); ++id) {
-    MetricGroup& group = memory.group(ports[id].name);
-    const std::uint64_t bytes = last.ports[id].bytes - first.ports[id].bytes;
-    const Cycles bus = last.ports[id].bus - first.ports[id].bus;
+  for (const MemoryPort* port : machine.ports()) {
+    MetricGroup& group = memory.group(port->name);
+    const PortSnapshot& begin = first.ports[port->number];
+    const PortSnapshot& end = last.ports[port->number];
+    const std::uint64_t bytes = end.bytes - begin.bytes;
+    const Cycles bus = end.bus - begin.bus;
     total += bytes;
     total_bus += bus;
     // After a single frame, the next one's traffic has begun.
     const double per_frame = window.frames() == 0
-                                 ? static_cast<double>(rows.of(ports[id])->frame())
+                                 ? static_cast<double>(port->rows->frame())
                                  : static_cast<double>(bytes) / static_cast<double>(window.frames());
-    add_port(group, *ports[id].master, window, per_frame,
+    add_port(group, *port->master, window, per_frame,
              elapsed == 0 ? 0 : static_cast<double>(bytes) / elapsed);
     if (model != nullptr) {
       group.add(
@@ -112,8 +104,9 @@ void add_memory(MetricGroup& root, const Machine& machine, const SteadyWindow& w
   }
   add_stalls(memory, machine, window);
   const EncodedMap& map = machine.map();
-  memory.group("map").add({"bytes_per_pixel_and_image", map.bytes_per_pixel(), "B",
-                           "Compressed size of the rectification map by pixels of both images.", ""});
+  memory.group(machine.map_port().name)
+      .add({"bytes_per_pixel_and_image", map.bytes_per_pixel(), "B",
+            "Compressed size of the rectification map by pixels of both images.", ""});
   memory.add({"bandwidth", elapsed == 0 ? 0 : static_cast<double>(total) / elapsed / 1e6, "MB/s",
               "Of all ports together.", window.text});
   if (model == nullptr) return;

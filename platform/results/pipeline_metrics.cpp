@@ -13,9 +13,10 @@
 namespace parallax {
 namespace {
 
-double share_of(const std::vector<PartLoad>& loads, const std::string& part) {
-  const auto found =
-      std::find_if(loads.begin(), loads.end(), [&](const PartLoad& l) { return l.part == part; });
+double share_of(const std::vector<PartLoad>& loads, const Stage* stage) {
+  const auto found = std::find_if(loads.begin(), loads.end(), [&](const PartLoad& l) {
+    return l.part->stage && l.part->stage->stage == stage;
+  });
   return found == loads.end() ? 0 : found->share;
 }
 
@@ -95,21 +96,25 @@ void add_stream(MetricGroup& group, const StreamBase& stream) {
 
 // Where data lies in memory between two engines: the machine's way past its streams.
 void add_buffers(MetricGroup& root, const Machine& machine) {
-  const auto engine = [&](const char* name) -> std::string {
-    for (const Machine::Port& port : machine.ports()) {
-      if (port.name == name) return port.master->get_parent_object()->name();
-    }
-    return "";
-  };
-  const auto add = [&](const char* name, const char* writer, const char* reader, std::uint32_t number) {
-    MetricGroup& group = root.group("buffers").group(name);
-    group.add({"writer", engine(writer), "", "The module that fills them.", ""});
-    group.add({"reader", engine(reader), "", "The module that empties them.", ""});
-    group.add({"number", std::int64_t{number}, "buffers", "In memory, each of one image.", ""});
-  };
-  add("left", "camera_left", "left", machine.config().camera.frame_buffers);
-  add("right", "camera_right", "right", machine.config().camera.frame_buffers);
-  if (machine.config().link.enabled) add("output", "output", "link", machine.config().link.output_buffers);
+  for (const BufferKind kind : {BufferKind::kLeft, BufferKind::kRight, BufferKind::kOutput}) {
+    const auto engine = [&](MemoryPort::Direction direction) -> const MemoryPort* {
+      const auto found = std::find_if(
+          machine.ports().begin(), machine.ports().end(),
+          [&](const MemoryPort* port) { return port->buffer == kind && port->direction == direction; });
+      return found == machine.ports().end() ? nullptr : *found;
+    };
+    const MemoryPort* const writer = engine(MemoryPort::Direction::kWrites);
+    const MemoryPort* const reader = engine(MemoryPort::Direction::kReads);
+    if (writer == nullptr || reader == nullptr) continue;  // results stay there: the link is off
+    const auto name = [](const MemoryPort* port) {
+      return std::string(port->master->get_parent_object()->name());
+    };
+    MetricGroup& group = root.group("buffers").group(name_of(kind));
+    group.add({"writer", name(writer), "", "The module that fills them.", ""});
+    group.add({"reader", name(reader), "", "The module that empties them.", ""});
+    group.add({"number", static_cast<std::int64_t>(machine.memory_map().number_of(kind)), "buffers",
+               "In memory, each of one image.", ""});
+  }
 }
 
 }  // namespace
@@ -124,8 +129,7 @@ void add_pipeline(MetricGroup& root, const Machine& machine, const SteadyWindow&
     const double cycles = static_cast<double>(info.cycles_per_frame());
     group.add({"cycles_per_frame", cycles, "cycles",
                "Cycles of a frame without any wait, by the declared intervals.", ""});
-    group.add(
-        {"utilisation", 100.0 * share_of(loads, info.stage->basename()), "%", "Of the time.", window.text});
+    group.add({"utilisation", 100.0 * share_of(loads, info.stage), "%", "Of the time.", window.text});
     add_stage_time(group, stage_time(info, window), window.frames() == 0 ? all : window.text);
     group.add({"storage", info.storage.count(), "bit", "Line buffers and the like, without FIFOs.", ""});
   }

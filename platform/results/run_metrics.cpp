@@ -56,20 +56,21 @@ void add_limit(MetricGroup& root, const Machine& machine, const SteadyWindow& wi
   const LimitVerdict verdict = find_limit(all);
   MetricGroup& group = root.group("limit");
   group.add(
-      {"part", verdict.limited ? verdict.busiest.part : "none", "",
+      {"part", verdict.limited ? verdict.busiest.part->name : "none", "",
        "The part that is at work all the time; of several, the first that the data meets. none: no part is.",
        window.text});
-  group.add({"key", verdict.limited ? verdict.busiest.key : verdict.otherwise, "",
+  group.add({"key", verdict.limited ? verdict.busiest.part->key : verdict.otherwise, "",
              "The configuration keys that move this limit.", window.text});
   group.add({"utilisation", 100.0 * verdict.busiest.share, "%",
              "Share of the time in which the busiest part is at work.", window.text});
   const PartLoad& next = verdict.limited ? verdict.next : verdict.busiest;
-  group.add({"next_part", next.part, "", "The part that would limit if this one did not.", window.text});
+  group.add(
+      {"next_part", next.part->name, "", "The part that would limit if this one did not.", window.text});
   group.add({"next_frame_rate", 1.0 / next.busy, "frames/s", "The rate at which it would.", window.text});
   MetricGroup& parts = group.group("utilisation_by_part");
   for (const PartLoad& load : all) {
-    parts.add(
-        {load.part, 100.0 * load.share, "%", "Share of the time in which the part is at work.", window.text});
+    parts.add({load.part->name, 100.0 * load.share, "%", "Share of the time in which the part is at work.",
+               window.text});
   }
 }
 
@@ -129,10 +130,10 @@ void add_software(MetricGroup& root, const Machine& machine, const SteadyWindow&
             "Frames that the core did not take at once because of what its registers said.",
             "the whole run"});
   const sc_core::sc_time before =
-      window.frames() > 0 ? machine.activities()[window.first].output_full : sc_core::SC_ZERO_TIME;
+      window.frames() > 0 ? machine.snapshots()[window.first].output_full : sc_core::SC_ZERO_TIME;
   root.group("software")
       .add({"waits_for_output_buffer",
-            seconds(machine.activities()[window.last].output_full - before) * 1e3 /
+            seconds(machine.snapshots()[window.last].output_full - before) * 1e3 /
                 static_cast<double>(std::max<std::size_t>(1, window.frames())),
             "ms",
             "Time a frame in which the core could have been started but for its results: all buffers waited "
@@ -160,9 +161,9 @@ void add_quality(MetricGroup& root, const RunTotals& totals) {
 MetricGroup measure(const Machine& machine, const RunTotals& totals, int image_width, int image_height) {
   const SteadyWindow window = steady_window(machine);
   MetricGroup root;
-  add_run(root, totals, "done", machine.activities().back().time);
+  add_run(root, totals, "done", machine.snapshots().back().time);
   add_input(root, machine, totals, image_width, image_height);
-  add_cameras(root, machine, machine.activities().back().cameras);
+  add_cameras(root, machine, machine.snapshots().back().cameras);
   add_software(root, machine, window);
   add_performance(root, machine, window);
   add_latency(root, machine, window);

@@ -3,8 +3,6 @@
 
 #include <string>
 
-#include "platform/machine/machine_rows.hpp"
-
 namespace parallax {
 namespace {
 
@@ -32,10 +30,10 @@ nlohmann::ordered_json counts(const LatencyHistogram& histogram) {
 
 RunProfile::RunProfile(const Machine& machine, Pace& pace)
     : machine_(machine),
+      frame_(std::make_shared<FrameProfile>(machine.map_port().name)),
+      order_(frame_),
       recorder_("profile", config_of(machine), const_cast<Dataflow&>(machine.dataflow()), pace, [this] {
-        const MachineRows rows(machine_);
-        for (const Machine::Port& port : machine_.ports())
-          recorder_.add(*port.master, port.name, rows.of(port));
+        for (const MemoryPort* port : machine_.ports()) recorder_.add(*port->master, port->name, port->rows);
       }) {
   recorder_.add(order_);
 }
@@ -45,8 +43,8 @@ nlohmann::ordered_json RunProfile::to_json() const {
   for (std::size_t i = 0; i < frame_spans().size(); ++i) {
     tree["latency"][frame_spans()[i].name] = counts(machine_.latencies().steady(i));
   }
-  for (const Machine::Port& port : machine_.ports())
-    tree["latency"][port.name] = counts(port.master->latencies());
+  for (const MemoryPort* port : machine_.ports())
+    tree["latency"][port->name] = counts(port->master->latencies());
   return tree;
 }
 

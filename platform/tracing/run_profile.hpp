@@ -30,8 +30,8 @@ class RunProfile {
 
  private:
   const Machine& machine_;
-  const std::shared_ptr<FrameProfile> frame_ = std::make_shared<FrameProfile>("map");
-  DateOrder order_{frame_};
+  const std::shared_ptr<FrameProfile> frame_;
+  DateOrder order_;
   Recorder recorder_;
 };
 

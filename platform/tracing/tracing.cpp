@@ -55,7 +55,7 @@ RecorderConfig recorder_config(const TraceChoice& choice, const Machine& machine
 const std::vector<std::string>& checked_parts(const std::vector<std::string>& parts, const Machine& machine) {
   std::vector<std::string> names;
   for (const StageInfo& info : machine.pipeline().stages()) names.emplace_back(info.stage->basename());
-  for (const Machine::Port& port : machine.ports()) names.push_back(port.name);
+  for (const MemoryPort* port : machine.ports()) names.push_back(port->name);
   for (const std::string& part : parts) {
     if (std::find(names.begin(), names.end(), part) == names.end()) {
       throw UserError(fmt::format("--trace-parts: there is no stage or memory port '{}'; the nearest is {}",
@@ -150,8 +150,8 @@ void Tracing::add_parts() {
   for (const StageInfo& info : stages) {
     if (is_wanted(info.stage->basename())) recorder_.add(const_cast<Stage&>(*info.stage), rows.of(info));
   }
-  for (const Machine::Port& port : machine_.ports()) {
-    if (is_wanted(port.name)) recorder_.add(*port.master, port.name, rows.of(port));
+  for (const MemoryPort* port : machine_.ports()) {
+    if (is_wanted(port->name)) recorder_.add(*port->master, port->name, port->rows);
   }
 }
 

@@ -6,7 +6,7 @@
 #include <exception>
 #include <stdexcept>
 
-#include "platform/results/limits.hpp"
+#include "platform/machine/steady_state.hpp"
 #include "platform/results/peak_memory.hpp"
 #include "tests/bench/benchmarks.hpp"
 #include "tests/bench/child_value.hpp"
@@ -69,7 +69,7 @@ MachineRun run_machine(const Size& size, std::int64_t frames) {
   for (const StreamBase* stream : machine.dataflow().streams()) {
     run.dates += stream->statistics().written + stream->statistics().read;
   }
-  run.modelled = machine.activities().back().time.to_seconds();
+  run.modelled = machine.snapshots().back().time.to_seconds();
   return run;
 }
 

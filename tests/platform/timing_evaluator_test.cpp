@@ -9,7 +9,7 @@
 #include <csignal>
 #include <fstream>
 
-#include "platform/results/limits.hpp"
+#include "platform/machine/steady_state.hpp"
 #include "tests/timing/machine_bench.hpp"
 
 namespace parallax::test {

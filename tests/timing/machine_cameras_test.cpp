@@ -51,7 +51,7 @@ Outcome run(const std::vector<std::string>& assignments) {
           out << time.to_seconds() << " ";
         }
       }
-      const CameraCounts& counts = machine.activities().back().cameras;
+      const CameraCounts& counts = machine.snapshots().back().cameras;
       out << counts.taken << " " << counts.faulty << " " << counts.dropped << " "
           << machine.registers().get("dma", "input_errors", "short_frame") +
                  2 * machine.registers().get("dma", "input_errors", "missing_row") +

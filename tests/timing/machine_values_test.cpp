@@ -51,7 +51,7 @@ std::string results(const MachineConfig& config, const std::function<void(Machin
     const Machine machine("machine", config, input);
     sc_core::sc_start();
     if (!machine.finished()) return "stuck:\n" + describe(machine.dataflow().waits());
-    out << "\n" << machine.activities().back().time;
+    out << "\n" << machine.snapshots().back().time;
     return out.str();
   });
 }

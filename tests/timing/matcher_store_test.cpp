@@ -32,10 +32,10 @@ Outcome run(const std::vector<std::string>& assignments, int width, int height) 
     const Machine machine("machine", config, input);
     sc_core::sc_start();
     std::ostringstream out;
-    const auto& all = machine.activities();
+    const auto& all = machine.snapshots();
     out << (all[kFrames - 1].time - all[kFrames - 3].time).to_seconds() / 2 << "\n";
     for (std::size_t i = 0; i < machine.ports().size(); ++i) {
-      out << machine.ports()[i].name << " "
+      out << machine.ports()[i]->name << " "
           << static_cast<double>(all[kFrames - 1].ports[i].bytes - all[kFrames - 3].ports[i].bytes) / 2
           << "\n";
     }
