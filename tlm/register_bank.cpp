@@ -56,25 +56,35 @@ RegisterBank::Cell& RegisterBank::cell(const std::string& block, const std::stri
   return const_cast<Cell&>(static_cast<const RegisterBank&>(*this).cell(block, reg));
 }
 
-const RegisterField& RegisterBank::field(const Cell& cell, const std::string& name) {
+const RegisterField& RegisterBank::find(const Cell& cell, const std::string& name) {
   for (const RegisterField& f : cell.description.fields) {
     if (name == f.name) return f;
   }
   throw std::logic_error("no field " + name + " in register " + cell.description.name);
 }
 
+std::uint32_t RegisterBank::Field::get() const { return (cell_->value & field_->mask()) >> field_->low; }
+
+void RegisterBank::Field::set(std::uint32_t value) const {
+  cell_->value = (cell_->value & ~field_->mask()) | (value << field_->low & field_->mask());
+}
+
+RegisterBank::Field RegisterBank::field(const std::string& block, const std::string& reg,
+                                        const std::string& name) {
+  Cell& c = cell(block, reg);
+  return {c, find(c, name)};
+}
+
 std::uint32_t RegisterBank::get(const std::string& block, const std::string& reg,
                                 const std::string& name) const {
   const Cell& c = cell(block, reg);
-  const RegisterField& f = field(c, name);
+  const RegisterField& f = find(c, name);
   return (c.value & f.mask()) >> f.low;
 }
 
 void RegisterBank::set(const std::string& block, const std::string& reg, const std::string& name,
                        std::uint32_t value) {
-  Cell& c = cell(block, reg);
-  const RegisterField& f = field(c, name);
-  c.value = (c.value & ~f.mask()) | (value << f.low & f.mask());
+  field(block, reg, name).set(value);
 }
 
 void RegisterBank::on_write(const std::string& block, const std::string& reg,

@@ -26,7 +26,7 @@ struct RegisterField {
   unsigned width;  ///< bits, 1 to 32
   FieldAccess access;
   std::uint32_t reset;
-  const char* documentation;
+  std::string documentation;
 
   std::uint32_t mask() const { return (width == 32 ? ~0U : (1U << width) - 1) << low; }
 };
@@ -53,14 +53,33 @@ struct RegisterBlock {
 /// address without a register with TLM_ADDRESS_ERROR_RESPONSE, byte enables and streaming with their errors;
 /// nothing is written then.
 class RegisterBank final : public sc_core::sc_module {
+  struct Cell;
+
  public:
+  /// A field as the hardware reads and sets it. Valid as long as its bank.
+  class Field {
+   public:
+    std::uint32_t get() const;
+    /// Bits of `value` beyond the field are left out.
+    void set(std::uint32_t value) const;
+
+   private:
+    friend class RegisterBank;
+    Field(Cell& cell, const RegisterField& field) : cell_(&cell), field_(&field) {}
+
+    Cell* cell_;
+    const RegisterField* field_;
+  };
+
   tlm_utils::multi_passthrough_target_socket<RegisterBank> socket{"socket"};
 
   /// Throws std::logic_error for a table that contradicts itself.
   RegisterBank(const sc_core::sc_module_name& name, const std::vector<RegisterBlock>& blocks,
                const sc_core::sc_time& access_time);
 
-  /// The hardware's side. Names are those of the table; std::logic_error when there is none.
+  /// The hardware's side. Names are those of the table; std::logic_error when there is none. Who reads or
+  /// sets a field often finds it once.
+  Field field(const std::string& block, const std::string& reg, const std::string& field);
   std::uint32_t get(const std::string& block, const std::string& reg, const std::string& field) const;
   void set(const std::string& block, const std::string& reg, const std::string& field, std::uint32_t value);
   /// Called after a write from the bus has changed the register, with the bits of its triggers that were
@@ -89,7 +108,7 @@ class RegisterBank final : public sc_core::sc_module {
   Cell* at(std::uint64_t address);
   Cell& cell(const std::string& block, const std::string& reg);
   const Cell& cell(const std::string& block, const std::string& reg) const;
-  static const RegisterField& field(const Cell& cell, const std::string& name);
+  static const RegisterField& find(const Cell& cell, const std::string& name);
 
   std::vector<Cell> cells_;
   const sc_core::sc_time access_time_;

@@ -12,6 +12,7 @@
 #include "platform/commands/common_options.hpp"
 #include "platform/config/config_writer.hpp"
 #include "platform/config/preset.hpp"
+#include "platform/registers/run_time_parameters.hpp"
 
 namespace parallax {
 namespace {
@@ -43,7 +44,11 @@ int run_config(const ConfigOptions& options, std::ostream& out) {
     print_presets(options, out);
     return 0;
   }
-  const Configuration configuration = load_configuration(options.request, preset_folders());
+  Configuration configuration = load_configuration(options.request, preset_folders());
+  for (EffectiveKey& key : configuration.keys) {
+    const std::string remark = run_time_remark(key.section + "." + key.name);
+    if (!remark.empty()) key.documentation += " " + remark;
+  }
   if (options.json) {
     out << to_json(configuration, options.documented).dump(2) << '\n';
   } else {

@@ -154,7 +154,7 @@ void Machine::start_core() {
   if (input_.parameters && frame < input_.frames) {
     if (const auto changed = input_.parameters(frame)) parameters = changed;
   }
-  if (parameters) driver_.write_parameters(config_, *parameters);
+  if (parameters) driver_.write_parameters(*parameters);
   parameters_written_ = true;
   const MemoryMap::FrameBuffer& buffer = acquisition_.buffer(frame);
   offering_ = true;

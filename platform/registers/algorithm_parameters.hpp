@@ -1,32 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <vector>
+
 #include "platform/config/machine_config.hpp"
 
 namespace parallax {
 
-/// What software may change from frame to frame, in the units of the stages' configurations.
+/// What software writes into the registers of parameters: a value for each row of run_time_parameters(), in
+/// the unit of its configuration key. To change one, change the configuration that they are taken from.
 struct AlgorithmParameters {
-  int p1 = 0;
-  int p2 = 0;
-  bool mask_border = false;
-  bool uniqueness = false;
-  int uniqueness_factor = 256;
-  bool consistency = false;
-  int consistency_threshold = 0;
-  bool texture = false;
-  int texture_threshold = 0;
-  int speckle_iterations = 0;
-  bool gap_interpolation = false;
-  bool noise_reduction = false;
+  std::vector<int> values;
 
-  bool operator==(const AlgorithmParameters& other) const;
+  bool operator==(const AlgorithmParameters& other) const { return values == other.values; }
 };
 
-/// Those that the machine is configured with.
+/// Those that a configuration holds.
 AlgorithmParameters algorithm_parameters(const MachineConfig& config);
 
-/// The configuration with these in it.
+/// The configuration with these in it. Throws std::out_of_range when there is not one for each row.
 MachineConfig with_parameters(MachineConfig config, const AlgorithmParameters& parameters);
 
 }  // namespace parallax

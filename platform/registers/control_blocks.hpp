@@ -3,11 +3,13 @@
 
 #include <cstdint>
 #include <functional>
+#include <string>
 #include <systemc>
 #include <vector>
 
 #include "platform/config/machine_config.hpp"
 #include "platform/registers/algorithm_parameters.hpp"
+#include "platform/registers/run_time_parameters.hpp"
 #include "tlm/bus_master.hpp"
 #include "tlm/register_bank.hpp"
 
@@ -63,18 +65,38 @@ class ControlBlocks final : public sc_core::sc_module {
   void frame_faulty(CameraFault fault);
 
  private:
+  using Field = RegisterBank::Field;
+  struct Address {
+    Field high, low;
+  };
+  struct ParameterField {
+    const RunTimeParameter* parameter;
+    Field field;
+  };
+
+  Field dma(const std::string& reg, const std::string& field) { return bank.field("dma", reg, field); }
+  Field stereo(const std::string& reg, const std::string& field) { return bank.field("stereo", reg, field); }
+  Address address_of(const std::string& data);
+  void show_fifo_on_read(const std::string& reg, const std::vector<CoreFacts::Port>& ports);
   void start(std::uint32_t triggers);
   bool judge_start();
-  bool judge_parameters();
-  void error(const char* block, const char* bit);
-  std::uint64_t address(const std::string& name) const;
-  std::uint32_t stereo(const char* reg, const char* field) const { return bank.get("stereo", reg, field); }
-  void show_fifo(const char* reg, const std::vector<CoreFacts::Port>& ports);
+  bool in_memory(const Address& address, std::uint64_t bytes) const;
+  /// What the registers of parameters say now.
+  AlgorithmParameters demanded() const;
+  /// Sets the error bits of those that are impossible; whether there is none.
+  bool judge(const AlgorithmParameters& parameters);
 
   const MachineConfig& config_;
   const CoreFacts facts_;
   const Hooks hooks_;
-  AlgorithmParameters parameters_;  // the last possible ones
+  const Field busy_, ready_, frames_done_field_, output_bytes_;
+  const Field faulty_frames_field_;
+  const Field enable_;
+  const std::vector<Field> widths_, heights_;  // of both blocks
+  const std::vector<Field> bytes_available_;   // of both images
+  const Address left_, right_, map_, output_, buffer_;
+  std::vector<ParameterField> parameter_fields_;  // in the order of run_time_parameters()
+  AlgorithmParameters parameters_;                // the last possible ones
   std::uint32_t under_way_ = 0;
   std::uint32_t frames_done_ = 0;
   std::uint32_t frames_faulty_ = 0;

@@ -6,8 +6,10 @@
 #include <cstdint>
 #include <string>
 #include <systemc>
+#include <vector>
 
 #include "platform/registers/control_blocks.hpp"
+#include "platform/registers/register_word.hpp"
 
 namespace parallax {
 
@@ -19,8 +21,8 @@ class CoreDriver final : public sc_core::sc_module {
 
   explicit CoreDriver(const sc_core::sc_module_name& name) : sc_module(name) {}
 
-  /// Writes the parameters, with the disparity range that the machine is built for.
-  void write_parameters(const MachineConfig& config, const AlgorithmParameters& parameters);
+  /// Enables the core and writes all run-time parameters.
+  void write_parameters(const AlgorithmParameters& parameters);
   /// Writes what belongs to a frame and starts it; whether the core has taken it. Old errors are cleared
   /// before, so that those of a refusal stay. The parameters in `command` are not looked at.
   bool start(const FrameCommand& command, const CoreFacts& facts);
@@ -33,6 +35,7 @@ class CoreDriver final : public sc_core::sc_module {
  private:
   void access(::tlm::tlm_command command, const std::string& block, const std::string& reg,
               std::uint32_t& value);
+  void write(const std::string& block, const std::string& reg, const std::vector<FieldValue>& fields);
   void write_address(const std::string& name, std::uint64_t address);
 };
 

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cctype>
 
+#include "platform/registers/run_time_parameters.hpp"
+
 namespace parallax {
 namespace {
 
@@ -97,46 +99,23 @@ RegisterBlock dma_block() {
 }
 
 RegisterBlock stereo_block() {
-  constexpr A kError = A::kWriteOneToClear;
+  std::vector<RegisterField> control = parameter_fields("control");
+  control.insert(control.begin(), {"enable", 0, 1, A::kReadWrite, 1, "Whether starts are taken."});
+  const auto parameters = [](const char* name, std::uint32_t offset, const char* documentation) {
+    return Register{name, offset, documentation, parameter_fields(name)};
+  };
   return {"stereo",
           0x100,
           "What the core computes. Written while a frame is processed, it counts from the next one on.",
-          {{"control",
-            0x00,
-            "Enable and disparity range.",
-            {{"enable", 0, 1, A::kReadWrite, 1, "Whether starts are taken."},
-             {"iterations", 8, 8, A::kReadWrite, 0, "n_i - 1. Fixed when the machine is built."}}},
+          {{"control", 0x00, "Enable and disparity range.", control},
            image_size(0x04),
-           {"algorithm_parameters_1",
-            0x08,
-            "Costs and uniqueness.",
-            {{"p1", 0, 8, A::kReadWrite, 0, "Penalty for a change by one disparity, below p2."},
-             {"p2", 8, 8, A::kReadWrite, 0, "Penalty for a larger change."},
-             {"uniqueness", 16, 12, A::kReadWrite, 0, "q = 1 + this / 256, up to 16."}}},
-           {"algorithm_parameters_2",
-            0x0C,
-            "Thresholds and switches. What the machine was built without cannot be switched on.",
-            {{"texture", 0, 6, A::kReadWrite, 0, "Threshold of the texture score."},
-             {"consistency", 6, 4, A::kReadWrite, 0, "t_c, px."},
-             {"offset", 10, 8, A::kReadWrite, 0, "Disparity offset, px. Fixed when the machine is built."},
-             {"speckle_iterations", 18, 3, A::kReadWrite, 0,
-              "Passes of the speckle filter, at most those built."},
-             {"mask_border", 21, 1, A::kReadWrite, 0, "Border pixels become invalid."},
-             {"uniqueness_enable", 22, 1, A::kReadWrite, 0, "Whether ambiguous matches become invalid."},
-             {"consistency_enable", 23, 1, A::kReadWrite, 0, "Whether left and right must agree."},
-             {"texture_enable", 24, 1, A::kReadWrite, 0, "Whether plain regions become invalid."},
-             {"gap_enable", 25, 1, A::kReadWrite, 0, "Whether gaps are interpolated."},
-             {"noise_enable", 26, 1, A::kReadWrite, 0, "Whether disparities are smoothed."}}},
-           {"errors",
-            0x28,
+           parameters("algorithm_parameters_1", 0x08, "Costs and uniqueness."),
+           parameters("algorithm_parameters_2", 0x0C,
+                      "Thresholds and switches. What the machine was built without cannot be switched on."),
+           {"errors", 0x28,
             "Parameters that a start found to be impossible; the frame is processed with the last possible "
-            "ones. Write 1 to "
-            "clear.",
-            {{"penalties", 0, 1, kError, 0, "p1 was not below p2."},
-             {"range", 1, 1, kError, 0, "Iterations or offset were not those of the machine."},
-             {"uniqueness", 2, 1, kError, 0, "The factor was above 16."},
-             {"speckle", 3, 1, kError, 0, "More passes than were built."},
-             {"switches", 4, 1, kError, 0, "A part was switched on that was not built."}}}}};
+            "ones. Write 1 to clear.",
+            parameter_error_fields()}}};
 }
 
 const char* text_of(A access) {

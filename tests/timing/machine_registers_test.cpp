@@ -142,16 +142,16 @@ std::string errors(Machine& machine, const char* block) {
 
 TEST(MachineRegisters, ImpossibleParametersSetTheirErrorBitAndNothingElse) {
   const std::string expected = usual();
-  const auto with = [&](const std::function<void(AlgorithmParameters&)>& spoil) {
+  const auto with = [&](const std::function<void(MachineConfig&)>& spoil) {
     const std::vector<std::string> all = lines(run(
         small({"gap_interpolation.enabled=false"}),
         [&](MachineInput& input) {
           input.parameters = [&](std::int64_t frame) -> std::optional<AlgorithmParameters> {
             if (frame != 1) return std::nullopt;
-            AlgorithmParameters bad = algorithm_parameters(small({"gap_interpolation.enabled=false"}));
-            bad.texture_threshold = 63;  // is not taken either
+            MachineConfig bad = small({"gap_interpolation.enabled=false"});
+            bad.texture.threshold = 63;  // is not taken either
             spoil(bad);
-            return bad;
+            return algorithm_parameters(bad);
           };
         },
         [](Machine& machine) { return errors(machine, "stereo") + "|" + errors(machine, "dma"); }));
@@ -160,10 +160,12 @@ TEST(MachineRegisters, ImpossibleParametersSetTheirErrorBitAndNothingElse) {
     for (std::size_t frame = 0; frame < 4; ++frame) EXPECT_EQ(all[frame], good);
     return all.back();
   };
-  EXPECT_EQ(with([](AlgorithmParameters& p) { p.p1 = p.p2; }), "penalties |");
-  EXPECT_EQ(with([](AlgorithmParameters& p) { p.uniqueness_factor = 4097; }), "uniqueness |");
-  EXPECT_EQ(with([](AlgorithmParameters& p) { p.speckle_iterations = 3; }), "speckle |");
-  EXPECT_EQ(with([](AlgorithmParameters& p) { p.gap_interpolation = true; }), "switches |");
+  EXPECT_EQ(with([](MachineConfig& c) { c.matching.p1 = c.matching.p2; }), "penalties |");
+  EXPECT_EQ(with([](MachineConfig& c) { c.matching.iterations = 2; }), "range |");
+  EXPECT_EQ(with([](MachineConfig& c) { c.matching.disparity_offset = 1; }), "range |");
+  EXPECT_EQ(with([](MachineConfig& c) { c.uniqueness.factor = 4097; }), "uniqueness |");
+  EXPECT_EQ(with([](MachineConfig& c) { c.speckle.iterations = 3; }), "speckle |");
+  EXPECT_EQ(with([](MachineConfig& c) { c.gap_interpolation.enabled = true; }), "switches |");
 }
 
 // Another initiator, as a processor model would be, sees the core at work and stops it for a while.

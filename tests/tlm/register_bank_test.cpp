@@ -114,6 +114,17 @@ TEST(RegisterBank, AReadBringsItUpToDateBefore) {
   });
 }
 
+TEST(RegisterBank, AFieldFoundOnceIsThatOfTheName) {
+  Bench b;
+  const RegisterBank::Field number = b.bank.field("one", "mixed", "number");
+  EXPECT_EQ(number.get(), 0x5Au);
+  number.set(0x134);
+  EXPECT_EQ(number.get(), 0x34u);
+  EXPECT_EQ(b.bank.get("one", "mixed", "number"), 0x34u);
+  EXPECT_EQ(b.bank.get("one", "mixed", "fixed"), 0x3u);
+  EXPECT_THROW(b.bank.field("one", "mixed", "none"), std::logic_error);
+}
+
 TEST(RegisterBank, RefusesWhatIsNoAccessToRegisters) {
   Bench b;
   b.run([&] {
