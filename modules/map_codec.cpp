@@ -121,11 +121,6 @@ class RowEncoder {
   Components left_step_{};  // value - up, of the pixel before
 };
 
-const OffsetRange& validated(const OffsetRange& range) {
-  range.validate();
-  return range;
-}
-
 }  // namespace
 
 double EncodedMap::bytes_per_pixel() const {
@@ -133,7 +128,8 @@ double EncodedMap::bytes_per_pixel() const {
 }
 
 MapEncoder::MapEncoder(int width, int height, const OffsetRange& range)
-    : map_{width, height, validated(range), {}, {}}, previous_(static_cast<std::size_t>(std::max(width, 0))) {
+    : map_{width, height, range, {}, {}}, previous_(static_cast<std::size_t>(std::max(width, 0))) {
+  range.validate();
   if (width < 1 || height < 1) {
     throw std::invalid_argument(fmt::format("map of {}x{} pixels", width, height));
   }

@@ -11,7 +11,6 @@ namespace parallax {
 
 namespace {
 
-constexpr int kDisparityBits = 12;
 constexpr int kLargestWindow = 7;
 
 }  // namespace
@@ -105,6 +104,7 @@ int NoiseReduction::look_ahead_pixels() const { return config_.enabled ? half_ :
 
 std::int64_t NoiseReduction::storage_bits() const {
   if (!config_.enabled) return 0;
+  constexpr int kDisparityBits = 12;
   const std::int64_t line_buffers = std::int64_t{2} * half_ * width_ * kDisparityBits;
   const std::int64_t window = std::int64_t{config_.window} * config_.window * kDisparityBits;
   return line_buffers + window;

@@ -8,12 +8,6 @@
 
 namespace parallax {
 
-namespace {
-
-constexpr int kDisparityBits = 12;
-
-}  // namespace
-
 void SpeckleConfig::validate() const {
   require_range("speckle.iterations", iterations, 0, 4);
   require_odd_range("speckle.window", window, 3, 31);
@@ -79,6 +73,7 @@ int Speckle::look_ahead_rows() const { return config_.iterations * (config_.wind
 int Speckle::look_ahead_pixels() const { return config_.iterations * (config_.window / 2); }
 
 std::int64_t Speckle::storage_bits() const {
+  constexpr int kDisparityBits = 12;
   const std::int64_t line_buffers = std::int64_t{config_.window - 1} * width_ * kDisparityBits;
   const std::int64_t window = std::int64_t{config_.window} * config_.window * kDisparityBits;
   return config_.iterations * (line_buffers + window);

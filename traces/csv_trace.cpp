@@ -9,15 +9,15 @@ namespace parallax {
 namespace {
 
 // One line. No name of a part has a comma or a quote.
-class Line {
+class CsvLine {
  public:
-  Line(TextBuffer& out, DateText& dates) : out_(out), dates_(dates), at_(out.room(kMost)) {}
-  ~Line() {
+  CsvLine(TextBuffer& out, DateText& dates) : out_(out), dates_(dates), at_(out.room(kMost)) {}
+  ~CsvLine() {
     at_[-1] = '\n';  // in the place of the last comma
     out_.added_until(at_);
   }
-  Line(const Line&) = delete;
-  Line& operator=(const Line&) = delete;
+  CsvLine(const CsvLine&) = delete;
+  CsvLine& operator=(const CsvLine&) = delete;
 
   void text(std::string_view, std::string_view value) { at_ = put(put(at_, value), ","); }
   void number(std::string_view, std::int64_t value) { at_ = put(put(at_, value), ","); }
@@ -54,7 +54,7 @@ void CsvTrace::begin(const TraceParts& parts) {
 
 template <class Event>
 void CsvTrace::put(const Event& event) {
-  Line line(*table<Event>(), dates_);
+  CsvLine line(*table<Event>(), dates_);
   trace_columns::put(line, parts_, event);
 }
 

@@ -10,15 +10,15 @@ namespace parallax {
 namespace {
 
 // One event: its table, then what is in the columns. No name of a part needs to be escaped.
-class Line {
+class JsonLine {
  public:
-  Line(TextBuffer& out, DateText& dates, bool first, std::string_view table)
+  JsonLine(TextBuffer& out, DateText& dates, bool first, std::string_view table)
       : out_(out), dates_(dates), at_(out.room(kMost)) {
     at_ = put(put(put(at_, first ? "\n[\"" : ",\n[\""), table), "\"");
   }
-  ~Line() { out_.added_until(put(at_, "]")); }
-  Line(const Line&) = delete;
-  Line& operator=(const Line&) = delete;
+  ~JsonLine() { out_.added_until(put(at_, "]")); }
+  JsonLine(const JsonLine&) = delete;
+  JsonLine& operator=(const JsonLine&) = delete;
 
   void text(std::string_view, std::string_view value) { at_ = put(put(put(at_, ",\""), value), "\""); }
   void number(std::string_view, std::int64_t value) { at_ = put(put(at_, ","), value); }
@@ -75,7 +75,7 @@ void JsonTrace::begin(const TraceParts& parts) {
 
 template <class Event>
 void JsonTrace::put(const Event& event) {
-  Line line(out_, dates_, first_, trace_columns::table_of(event));
+  JsonLine line(out_, dates_, first_, trace_columns::table_of(event));
   first_ = false;
   trace_columns::put(line, parts_, event);
 }

@@ -10,7 +10,6 @@
 namespace parallax {
 namespace {
 
-constexpr const char* kDeviceSoftware = "parameters of the device's own software";
 constexpr IntegerRange kDisparitySteps{0, 4094};  // the largest difference of two 12-bit disparities
 constexpr const char* kDisparityStep = "1/16 px";
 

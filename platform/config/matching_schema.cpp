@@ -10,11 +10,6 @@
 #include "platform/config/stage_schema.hpp"
 
 namespace parallax {
-namespace {
-
-constexpr const char* kDeviceSoftware = "parameters of the device's own software";
-
-}  // namespace
 
 void describe(Schema& schema, RectificationConfig& config) {
   using Rounding = RectificationConfig::Rounding;

@@ -16,6 +16,9 @@ struct SubpixelConfig;
 struct TextureConfig;
 struct UniquenessConfig;
 
+/// Where the values come from that the device's own software shows.
+inline constexpr const char* kDeviceSoftware = "parameters of the device's own software";
+
 void describe(Schema& schema, RectificationConfig& config);
 void describe(Schema& schema, CensusConfig& config);
 void describe(Schema& schema, MatchingConfig& config);

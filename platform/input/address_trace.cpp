@@ -21,7 +21,7 @@ constexpr const char* kHeader = "time_ns,rw,addr,bytes";
 constexpr std::uint64_t kMostBytes = 1 << 20;
 constexpr double kLatest = 1e12;  // ns: a refresh is a step, and this many take seconds
 
-std::string read_file(const std::string& path) {
+std::string unpacked_file(const std::string& path) {
   const std::unique_ptr<gzFile_s, int (*)(gzFile)> file(gzopen(path.c_str(), "rb"), gzclose);
   if (!file) throw UserError(fmt::format("{}: cannot be read: {}", path, std::strerror(errno)));
   std::string text;
@@ -91,7 +91,7 @@ class Line {
 }  // namespace
 
 std::vector<TraceRequest> read_address_trace(const std::string& path) {
-  std::istringstream in(read_file(path));
+  std::istringstream in(unpacked_file(path));
   std::vector<TraceRequest> trace;
   std::string line;
   double latest = 0;

@@ -11,15 +11,15 @@
 namespace parallax {
 namespace {
 
-constexpr int kColors = 256;
+constexpr int kScaleColors = 256;
 constexpr int kHighestError = 5;  // px: beyond the limits of bad-1 to bad-3
 
 /// The colours of a map of OpenCV's from its entry `first` on.
 std::vector<cv::Vec3b> map_colors(int map, int first) {
-  cv::Mat ramp(1, kColors, CV_8UC1);
-  for (int i = 0; i < kColors; ++i) {
+  cv::Mat ramp(1, kScaleColors, CV_8UC1);
+  for (int i = 0; i < kScaleColors; ++i) {
     ramp.at<std::uint8_t>(0, i) =
-        static_cast<std::uint8_t>(first + i * (kColors - 1 - first) / (kColors - 1));
+        static_cast<std::uint8_t>(first + i * (kScaleColors - 1 - first) / (kScaleColors - 1));
   }
   cv::Mat colors;
   cv::applyColorMap(ramp, colors, map);

@@ -13,11 +13,11 @@ constexpr int kNarrowest = 96;    // px: narrower pictures have no room for text
 constexpr int kReadableAt = 512;  // px: wider pictures are looked at from farther away
 constexpr int kTextHeight = 9;    // px, of OpenCV's Hershey font at kTextScale
 constexpr double kTextScale = 0.4;
-constexpr int kMargin = 4;   // px
-constexpr int kSwatch = 10;  // px
-constexpr int kRow = 20;     // px, of names
-constexpr int kBar = 12;     // px
-constexpr int kTick = 4;     // px
+constexpr int kMargin = 4;      // px
+constexpr int kSwatch = 10;     // px
+constexpr int kRow = 20;        // px, of names
+constexpr int kBarHeight = 12;  // px
+constexpr int kTick = 4;        // px
 constexpr int kMostTicks = 12;
 constexpr int kTickGap = 10;  // px, between two numbers
 constexpr int kPanelGap = 8;  // px, between two pictures
@@ -144,7 +144,7 @@ ScalePlace scale_place(const LegendScale& scale, int width) {
   const Zoom zoom(width);
   const int side = zoom(kMargin) + (widest_tick(scale, zoom) + 1) / 2;  // numbers are centred on their ticks
   const int top = zoom(kMargin);
-  return {side, width - 1 - side, top, top + zoom(kBar) - 1};
+  return {side, width - 1 - side, top, top + zoom(kBarHeight) - 1};
 }
 
 cv::Mat draw_legend(const Legend& legend, int width) {

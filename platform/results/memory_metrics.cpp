@@ -8,8 +8,6 @@
 namespace parallax {
 namespace {
 
-double seconds(const sc_core::sc_time& time) { return time.to_seconds(); }
-
 // Cycles in which a port of the core held up the stage at its other end.
 void add_stalls(MetricGroup& memory, const Machine& machine, const SteadyWindow& window) {
   const double frames = static_cast<double>(std::max<std::size_t>(1, window.frames()));
@@ -29,7 +27,7 @@ void add_port(MetricGroup& group, const BusMaster& port, const SteadyWindow& win
   group.add({"bandwidth", bytes_per_second / 1e6, "MB/s", "Bytes through the port by time.", window.text});
   const LatencyHistogram& latencies = port.latencies();
   const auto latency = [&](const char* name, const sc_core::sc_time& time, const char* description) {
-    group.add({name, seconds(time) * 1e9, "ns", description, all});
+    group.add({name, time.to_seconds() * 1e9, "ns", description, all});
   };
   latency("latency_mean", latencies.mean(), "From request to answer of a burst.");
   latency("latency_p50", latencies.percentile(0.5), "Half of the bursts are answered in this time (+1.6 %).");
@@ -75,7 +73,7 @@ void add_memory(MetricGroup& root, const Machine& machine, const SteadyWindow& w
   first.ports.resize(machine.ports().size());
   if (window.frames() > 0) first = machine.snapshots()[window.first];
   const MachineSnapshot& last = machine.snapshots()[window.last];
-  const double elapsed = seconds(last.time - first.time);
+  const double elapsed = (last.time - first.time).to_seconds();
   const auto share = [&](Cycles taken) {
     const Cycles cycles = model->cycle_at_or_after(last.time) - model->cycle_at_or_after(first.time);
     return 100.0 * (static_cast<double>(taken.count()) /

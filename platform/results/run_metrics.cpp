@@ -14,8 +14,6 @@
 namespace parallax {
 namespace {
 
-double seconds(const sc_core::sc_time& time) { return time.to_seconds(); }
-
 void add_performance(MetricGroup& root, const Machine& machine, const SteadyWindow& window) {
   const double pixels = static_cast<double>(machine.input().width) * machine.input().height;
   const double fps = window.period > 0 ? 1.0 / window.period : 0;
@@ -39,7 +37,7 @@ void add_latency(MetricGroup& root, const Machine& machine, const SteadyWindow& 
     const FrameSpan& span = frame_spans()[i];
     const LatencyHistogram& steady = latencies.steady(i);
     const auto add = [&](const char* what, const sc_core::sc_time& time, const std::string& of) {
-      group.add({fmt::format("{}_{}", span.name, what), seconds(time) * 1e3, "ms", span.description, of});
+      group.add({fmt::format("{}_{}", span.name, what), time.to_seconds() * 1e3, "ms", span.description, of});
     };
     add("first_frame", span.of(latencies.first_frame()), "frame 1");
     add("mean", steady.mean(), frames);
@@ -86,8 +84,8 @@ void add_run(MetricGroup& root, const RunTotals& totals, const std::string& stat
     run.add({"seed", fmt::format("{}", *totals.scene_seed), "", "Of the built-in scene.", ""});
   }
   run.add({"wall_time", totals.wall_seconds, "s", "Time that the run took on this computer.", ""});
-  run.add({"simulated_time", seconds(simulated), "s", "Time of the modelled machine.", ""});
-  run.add({"speed", seconds(simulated) / std::max(totals.wall_seconds, 1e-9), "s/s",
+  run.add({"simulated_time", simulated.to_seconds(), "s", "Time of the modelled machine.", ""});
+  run.add({"speed", simulated.to_seconds() / std::max(totals.wall_seconds, 1e-9), "s/s",
            "Simulated time per wall-clock time.", ""});
   run.add({"peak_memory", totals.peak_megabytes, "MB", "Largest resident size of the program.", ""});
 }
@@ -133,7 +131,7 @@ void add_software(MetricGroup& root, const Machine& machine, const SteadyWindow&
       window.frames() > 0 ? machine.snapshots()[window.first].output_full : sc_core::SC_ZERO_TIME;
   root.group("software")
       .add({"waits_for_output_buffer",
-            seconds(machine.snapshots()[window.last].output_full - before) * 1e3 /
+            (machine.snapshots()[window.last].output_full - before).to_seconds() * 1e3 /
                 static_cast<double>(std::max<std::size_t>(1, window.frames())),
             "ms",
             "Time a frame in which the core could have been started but for its results: all buffers waited "

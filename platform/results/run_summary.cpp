@@ -54,14 +54,14 @@ std::string limit_lines(const MetricGroup& m) {
                             m.word("limit/next_part"), m.number("limit/next_frame_rate"));
 }
 
-constexpr std::int64_t kBar = 50;  // characters
+constexpr std::int64_t kBarLength = 50;  // characters
 
 // As many characters of each part as it has of the whole, those with the largest remainders upward.
 std::string bar(const std::vector<std::pair<char, std::int64_t>>& parts) {
   std::vector<std::int64_t> tenths;
   for (const auto& [character, share] : parts) tenths.push_back(share);
   std::string text;
-  const std::vector<std::int64_t> lengths = shares_of(tenths, kBar);
+  const std::vector<std::int64_t> lengths = shares_of(tenths, kBarLength);
   for (std::size_t i = 0; i < parts.size(); ++i)
     text.append(static_cast<std::size_t>(lengths[i]), parts[i].first);
   return text;

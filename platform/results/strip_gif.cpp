@@ -19,7 +19,7 @@ constexpr double kLongest = 0xFFFF;  // what the format can say
 
 // The palette: greys for the left image, the first of them black as invalid pixels are, then the disparities.
 constexpr int kGreys = 64;
-constexpr int kColors = 128;
+constexpr int kFrameColors = 128;
 
 std::uint8_t grey_index(std::uint8_t grey) { return static_cast<std::uint8_t>(grey * kGreys / 256); }
 
@@ -33,8 +33,8 @@ cv::Size panel_size(const cv::Size& frame) {
 /// Fewer colours, of the same scale.
 ColorScale thinned(const ColorScale& scale) {
   std::vector<cv::Vec3b> colors;
-  for (std::size_t i = 0; i < kColors; ++i) {
-    colors.push_back(scale.colors()[i * (scale.colors().size() - 1) / (kColors - 1)]);
+  for (std::size_t i = 0; i < kFrameColors; ++i) {
+    colors.push_back(scale.colors()[i * (scale.colors().size() - 1) / (kFrameColors - 1)]);
   }
   return {scale.lowest(), scale.highest(), colors};
 }
