@@ -7,13 +7,17 @@ usage: browser.py [--screenshots DIR] [--no-script] PAGE...
 import argparse
 import json
 import pathlib
+import socket
 import sys
 import time
 
 from selenium import webdriver
+from selenium.common.exceptions import WebDriverException
 from selenium.webdriver.chrome.service import Service
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
+
+DRIVER = "/usr/bin/chromedriver"
 
 # A canvas is drawn when not all its pixels are alike.
 DRAWN = """return [...document.querySelectorAll('canvas')].map(canvas => {
@@ -33,7 +37,14 @@ def open_browser(script):
     options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
     if not script:
         options.add_experimental_option("prefs", {"profile.managed_default_content_settings.javascript": 2})
-    return webdriver.Chrome(service=Service("/usr/bin/chromedriver"), options=options)
+    try:
+        socket.getaddrinfo("localhost", None)  # where selenium looks for the driver
+    except OSError as error:
+        sys.exit(f"browser.py: localhost cannot be resolved ({error.strerror}): /etc/hosts lacks '127.0.0.1 localhost'")
+    try:
+        return webdriver.Chrome(service=Service(DRIVER), options=options)
+    except WebDriverException as error:
+        sys.exit(f"browser.py: {DRIVER} cannot be started: {str(error).splitlines()[0]}")
 
 
 def details(driver):
