@@ -107,10 +107,6 @@ std::vector<Part> Acquisition::parts() const {
   return parts;
 }
 
-const MemoryMap::FrameBuffer& Acquisition::buffer(std::int64_t frame) const {
-  return memory_map_.frames[static_cast<std::size_t>(frame) % memory_map_.frames.size()];
-}
-
 void Acquisition::release() {
   if (buffers_used_-- == static_cast<std::int64_t>(memory_map_.frames.size())) {
     buffer_free_since_ = sc_core::sc_time_stamp();
@@ -118,9 +114,12 @@ void Acquisition::release() {
   buffer_free_.notify();
 }
 
-std::uint64_t Acquisition::bursts_before(std::int64_t frame) const {
-  return static_cast<std::uint64_t>(frame) *
-         burst_count(image_job(0, false, input_.height).bytes(), Bytes(config_.dma.camera.burst_bytes));
+FrameWriter Acquisition::writer(const std::shared_ptr<TransferProgress>& progress) const {
+  return {progress, static_cast<std::uint64_t>(input_.height),
+          [row = static_cast<std::uint64_t>(row_bytes(config_, input_)),
+           burst = Bytes(config_.dma.camera.burst_bytes)](std::uint64_t rows) {
+            return burst_count(rows * row, burst);
+          }};
 }
 
 // Nothing that has to be freed lives on this thread's stack while it waits: it never ends.
@@ -245,8 +244,8 @@ void Acquisition::expose(std::int64_t frame) {
     job.progress = progress;
     dma.start(std::move(job));
   };
-  start(dma_left_, buffer(frame).left, left_progress_);
-  start(dma_right_, buffer(frame).right, right_progress_);
+  start(dma_left_, memory_map_.images(frame).left, left_progress_);
+  start(dma_right_, memory_map_.images(frame).right, right_progress_);
   left_sensor_.read_out(images.left);
   right_sensor_.read_out(images.right, skew_);
 }
@@ -283,11 +282,11 @@ void Acquisition::expose_faulty() {
     release();
     frame_complete_.notify();
   });
-  const MemoryMap::FrameBuffer& place = buffer(counts_.taken);
-  DmaJob job = image_job(place.left, false, input_.height - lost.count);
+  const MemoryMap::FrameBuffer& images = memory_map_.images(counts_.taken);
+  DmaJob job = image_job(images.left, false, input_.height - lost.count);
   job.done = done;
   dma_left_.start(job);
-  job = image_job(place.right, false, input_.height);
+  job = image_job(images.right, false, input_.height);
   job.done = done;
   dma_right_.start(job);
   const Cycles late =

@@ -11,6 +11,7 @@
 #include "platform/config/machine_config.hpp"
 #include "platform/machine/camera_trigger.hpp"
 #include "platform/machine/frame.hpp"
+#include "platform/machine/frame_writer.hpp"
 #include "platform/machine/machine_input.hpp"
 #include "platform/machine/machine_snapshot.hpp"
 #include "platform/machine/memory_map.hpp"
@@ -41,16 +42,12 @@ class Acquisition final : public sc_core::sc_module {
   Acquisition(const sc_core::sc_module_name& name, const MachineConfig& config, const MachineInput& input,
               const MemoryMap& memory_map, const ClockDomain& clock, Dataflow& dataflow, Listener listener);
 
-  /// The buffer that a frame lies in.
-  const MemoryMap::FrameBuffer& buffer(std::int64_t frame) const;
   /// The oldest frame has been read: its buffer is free.
   void release();
 
-  /// For a core that reads a frame while it comes (camera.early_start_rows): how far the engines are; else
-  /// null. A frame begins after bursts_before(frame) bursts.
-  const std::shared_ptr<TransferProgress>& left_progress() const { return left_progress_; }
-  const std::shared_ptr<TransferProgress>& right_progress() const { return right_progress_; }
-  std::uint64_t bursts_before(std::int64_t frame) const;
+  /// The engines, for a core that reads a frame while it comes (camera.early_start_rows).
+  FrameWriter left_writer() const { return writer(left_progress_); }
+  FrameWriter right_writer() const { return writer(right_progress_); }
 
   /// camera_left, camera_right.
   std::vector<MemoryPort>& ports() { return ports_; }
@@ -73,6 +70,7 @@ class Acquisition final : public sc_core::sc_module {
   void expose_next();
   void expose(std::int64_t frame);
   void expose_faulty();
+  FrameWriter writer(const std::shared_ptr<TransferProgress>& progress) const;
   DmaJob image_job(std::uint64_t address, bool values, int rows) const;
 
   const MachineConfig& config_;
@@ -95,7 +93,7 @@ class Acquisition final : public sc_core::sc_module {
   sc_core::sc_event frame_complete_;  // both images are in memory
   std::int64_t buffers_used_ = 0;     // frames from exposure until both images are read
   sc_core::sc_event buffer_free_;
-  sc_core::sc_time buffer_free_since_;  // while one is free
+  sc_core::sc_time buffer_free_since_;  // since when a buffer has been free; of no meaning while none is
   std::uint32_t until_fault_;           // frames, this one included
   sc_core::sc_time exposed_;            // date of the last exposure
   CameraCounts counts_;

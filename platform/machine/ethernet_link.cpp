@@ -7,7 +7,7 @@
 namespace parallax {
 namespace {
 
-// In OutputPacking::pair_bytes().
+// Whose results take OutputPacking::pair_bytes().
 constexpr std::int64_t kPixels = 2;
 
 }  // namespace

@@ -59,18 +59,18 @@ class EthernetLink final : public sc_core::sc_module, public Actor {
   std::deque<LinkJob> jobs_;
   sc_core::sc_event go_on_;
   std::deque<std::uint8_t> bytes_;
-  bool sending_ = false;  // a frame, which is
-  LinkJob job_;
-  std::uint64_t received_ = 0;  // bytes of it
-  std::uint64_t sent_ = 0;      // bytes of it
-  Cycles ready_{0};             // of the last thing that was done
+  bool sending_ = false;        // whether job_ is under way
+  LinkJob job_;                 // the frame that is sent
+  std::uint64_t received_ = 0;  // bytes of job_ that have been read
+  std::uint64_t sent_ = 0;      // bytes of job_ that are in packets
+  Cycles ready_{0};             // cycle of the last read or packet
   Cycles last_read_{-1};
   Cycles wire_free_{0};
   Cycles host_free_{0};
-  std::deque<Packet> packets_;  // those that were not over when the last one was sent
-  std::uint64_t past_packets_ = 0;
-  Cycles past_wire_;  // of these
-  Cycles past_host_;
+  std::deque<Packet> packets_;      // that were not over when the last one was sent
+  std::uint64_t past_packets_ = 0;  // before packets_
+  Cycles past_wire_;                // cycles on the wire of the packets before packets_
+  Cycles past_host_;                // cycles in which the host took the pixels of these
 };
 
 }  // namespace parallax

@@ -29,6 +29,7 @@ struct MemoryPort {
   std::string name;        ///< in the memory's statistics: "camera_left"
   std::string key;         ///< its engine's keys: "dma.camera"
   BusMaster* master;       ///< the engine's requests
+  StreamPort* bursts;      ///< the engine's other side
   Direction direction;     ///< seen from the engine
   std::uint32_t slots;     ///< requests that it can have under way: one that reads, as many as its FIFO holds
   std::size_t number = 0;  ///< among the memory's ports, in the order of binding
@@ -46,6 +47,8 @@ struct MemoryPort {
   bool from_camera() const {
     return direction == Direction::kWrites && buffer.has_value() && *buffer != BufferKind::kOutput;
   }
+  /// Sets `stage` to the one of `stages` that is bound to the engine's stream; when all is bound.
+  void find_stage(const std::vector<StageInfo>& stages);
   /// Its engine, as a part that can limit the machine: "dma_camera_left".
   Part part() const;
 };

@@ -96,14 +96,14 @@ class Sensor final : public sc_core::sc_module, public Actor {
   Dataflow& dataflow_;
   std::deque<Exposed> exposed_;  // images that wait for their read-out
   sc_core::sc_event go_on_;
-  LostRows lost_;    // of the image under way
+  LostRows lost_;    // rows of the image under way that do not arrive
   std::int64_t at_;  // bytes of the image under way that have been handed on
-  Cycles begin_{0};  // of its read-out
-  Cycles free_{0};   // end of its read-out
-  Cycles busy_;
+  Cycles begin_{0};  // begin of the last read-out
+  Cycles free_{0};   // end of the last read-out
+  Cycles busy_;      // of the read-outs until then
   Cycles last_write_{-1};
   std::uint64_t late_bursts_ = 0;
-  Ring<Cycles> late_to_come_;  // dates of further ones
+  Ring<Cycles> late_to_come_;  // dates of late bursts that are known and have not come
 };
 
 }  // namespace parallax

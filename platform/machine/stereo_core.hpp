@@ -8,99 +8,104 @@
 #include <systemc>
 #include <vector>
 
+#include "platform/machine/frame_writer.hpp"
 #include "platform/machine/machine_input.hpp"
 #include "platform/machine/memory_map.hpp"
 #include "platform/machine/memory_port.hpp"
 #include "platform/machine/part.hpp"
 #include "platform/machine/pipeline.hpp"
-#include "platform/registers/algorithm_parameters.hpp"
+#include "platform/registers/control_blocks.hpp"
 #include "tlm/dma.hpp"
 
 namespace parallax {
 
-/// A writer that has not finished what the core is to read; see DmaJob::behind.
-struct ImageSource {
-  std::shared_ptr<TransferProgress> progress;  ///< null: all of the image is in memory
-  std::uint64_t bursts_before = 0;             ///< that the writer had written before this image
-  Bytes burst{0};                              ///< of the writer
-
-  /// Bursts after which the first `bytes` bytes of the image are there.
-  std::uint64_t bursts_until(std::uint64_t bytes) const { return bursts_before + burst_count(bytes, burst); }
-};
-
-/// A frame for the core, by where its buffers lie in memory.
-struct CoreJob {
-  std::uint64_t left = 0;   ///< address of the left image, as the camera wrote it
-  std::uint64_t right = 0;  ///< likewise
-  std::uint64_t map = 0;    ///< address of the compressed map\'s bytes
-  bool values = true;       ///< false: timing only
-  AlgorithmParameters parameters{};
-  std::uint64_t output = 0;  ///< address of the results
-  std::uint64_t buffer = 0;  ///< address of what the matcher keeps in memory (MatcherStore)
-  ImageSource left_source{};
-  ImageSource right_source{};
-  std::function<void()> read;     ///< called when both images have been read
-  std::function<void()> written;  ///< called when the results are in memory
-  /// Called, if there is one, when link.early_start_rows of the results are there.
-  std::function<void()> early{};
-};
-
-/// What stays the same from frame to frame.
-struct CoreMap {
+/// What the core works on, beside the frames' addresses, which its registers hold.
+struct CoreInput {
   const TilePlan& tiles;
   const EncodedMap& map;  ///< cut for the tiles
+  FrameWriter left;       ///< brings the left images into memory
+  FrameWriter right;
 };
 
-/// The stereo core: the pipeline with the DMA engines of its memory ports left, right, map and output. An
+/// When a frame's first and last disparity left the last filter.
+struct CoreDates {
+  sc_core::sc_time first_disparity;
+  sc_core::sc_time last_disparity;
+};
+
+/// The stereo core: the pipeline with the DMA engines of its memory ports left, right, map and output, and
+/// the control blocks, whose registers start it. Frames are numbered from 0 in the order of their starts. An
 /// image of several tiles is read, and its results are written, tile by tile, each row of a tile by itself.
 /// What the matcher keeps in memory has ports of its own: what has been written is read back as soon as it is
 /// answered for and there is room.
 class StereoCore final : public sc_core::sc_module {
  public:
-  StereoCore(const sc_core::sc_module_name& name, const MachineConfig& config, const MachineInput& input,
-             const CoreMap& map, const ClockDomain& clock, Dataflow& dataflow);
+  struct Hooks {
+    /// Whether there is a frame that could be started now; asked at a start.
+    std::function<bool()> expected;
+    /// Whether a frame carries images; else its time alone passes.
+    std::function<bool(std::int64_t frame)> has_values;
+    /// A frame is started, within the write to the control register.
+    std::function<void(std::int64_t frame)> started;
+    /// Both images of the oldest frame that was not read have been read.
+    std::function<void()> read;
+    /// link.early_start_rows of the results are in memory; called if a link sends early.
+    std::function<void(std::int64_t frame)> begun;
+    /// All results are in memory, and the status register says so.
+    std::function<void(std::int64_t frame, const CoreDates& dates)> written;
+  };
 
-  /// Queues a frame.
-  void start(const CoreJob& job);
+  /// `config` and what `input` refers to must outlive the object.
+  StereoCore(const sc_core::sc_module_name& name, const MachineConfig& config, const MachineInput& run,
+             CoreInput input, Hooks hooks, const ClockDomain& clock, Dataflow& dataflow);
 
-  /// For who reads results while they come: told of the bursts of the last tile;
-  /// null unless a link sends early (link.early_start_rows).
-  const std::shared_ptr<TransferProgress>& output_progress() const { return output_progress_; }
-  /// Bursts of the frame, counted so, that hold its first `rows` rows.
-  std::uint64_t output_bursts_until(std::uint64_t rows) const;
+  ControlBlocks& control() { return *control_; }
+  /// What its registers take for granted.
+  const CoreFacts& facts() const { return facts_; }
+
+  /// The engine that writes results, for who reads them while they come: of several tiles the last one's
+  /// bursts count. Without progress unless a link sends early (link.early_start_rows).
+  FrameWriter output_writer() const;
 
   Pipeline& pipeline() { return pipeline_; }
   const Pipeline& pipeline() const { return pipeline_; }
   /// left, right, map, output.
-  std::vector<MemoryPort>& ports() { return ports_; }
+  std::vector<MemoryPort*> ports() { return {&left_port_, &right_port_, &map_port_, &output_port_}; }
   /// The port that brings the rectification map.
-  const MemoryPort& map_port() const { return ports_[2]; }
+  const MemoryPort& map_port() const { return map_port_; }
   /// Those that write and read back what the matcher keeps in memory, as far as it does: buffer_row_write,
   /// buffer_row_read, buffer_frame_write, buffer_frame_read.
-  std::vector<MemoryPort>& buffer_ports() { return buffer_ports_; }
+  std::vector<MemoryPort*> buffer_ports() const;
   /// Tells the ports which stage is at their other end; when all is bound.
   void find_stages();
   /// Every stage; before them the core as a whole, unless frames queue in it. After find_stages().
   std::vector<Part> parts() const;
 
  private:
-  void make_ports(const DmaConfig& config);
-  void start_input(const CoreJob& job);
-  void start_output(const CoreJob& job);
-  void start_store(const CoreJob& job);
+  void describe_ports();
+  CoreFacts make_facts(const MachineConfig& config) const;
+  void start(const FrameCommand& command);
+  void start_input(std::int64_t frame, const FrameCommand& command);
+  void start_output(std::int64_t frame, const FrameCommand& command);
+  void start_store(const FrameCommand& command);
+  void written(std::int64_t frame);
   DmaJob output_job(const Tile& tile) const;
 
-  struct StorePorts {
-    StorePorts(const std::string& what, const DmaPortConfig& config, const ClockDomain& clock,
-               Dataflow& dataflow);
+  struct BufferEngines {  // of what the matcher keeps in memory
+    BufferEngines(const std::string& what, const DmaPortConfig& config, const ClockDomain& clock,
+                  Dataflow& dataflow);
     DmaWriter write;
     DmaReader read;
     std::shared_ptr<TransferProgress> progress;
+    MemoryPort write_port;
+    MemoryPort read_port;
     std::uint64_t bursts = 0;  // started
   };
 
-  const MachineInput& input_;
-  const CoreMap map_;
+  const MachineInput& run_;
+  const CoreInput input_;
+  const Hooks hooks_;
+  const ClockDomain& clock_;
   const PixelFormat format_;
   const bool queue_frames_;
   const OutputLeft output_left_;
@@ -112,10 +117,15 @@ class StereoCore final : public sc_core::sc_module {
   const std::uint32_t early_rows_;
   const Bytes output_burst_;
   std::shared_ptr<TransferProgress> output_progress_;
-  std::unique_ptr<StorePorts> rows_;   // if the matcher keeps rows
-  std::unique_ptr<StorePorts> frame_;  // if it keeps a frame
-  std::vector<MemoryPort> ports_;
-  std::vector<MemoryPort> buffer_ports_;
+  std::unique_ptr<BufferEngines> rows_;   // if the matcher keeps rows
+  std::unique_ptr<BufferEngines> frame_;  // if it keeps a frame
+  MemoryPort left_port_;
+  MemoryPort right_port_;
+  MemoryPort map_port_;
+  MemoryPort output_port_;
+  CoreFacts facts_;
+  std::unique_ptr<ControlBlocks> control_;
+  std::int64_t started_ = 0;  // frames
 };
 
 }  // namespace parallax

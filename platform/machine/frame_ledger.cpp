@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "platform/machine/frame_ledger.hpp"
+
+#include <utility>
+
+#include "platform/machine/steady_state.hpp"
+
+namespace parallax {
+namespace {
+
+// Records that are kept beyond the warm-up, at the beginning and at the end of a run: more frames than can be
+// under way.
+constexpr std::size_t kRecords = 160;
+
+}  // namespace
+
+FrameLedger::FrameLedger(const MachineConfig& config, std::int64_t frames, StepListener listener)
+    : kept_(static_cast<std::size_t>(warm_up_frames(config)) + kRecords),
+      listener_(std::move(listener)),
+      latencies_(steady_first(config, frames)) {
+  times_.keep(kept_);
+  snapshots_.keep(kept_);
+}
+
+void FrameLedger::tell(std::int64_t frame, FrameStep step) const {
+  if (listener_) listener_(frame, step);
+}
+
+void FrameLedger::exposed(bool values) {
+  values_.push_back(values);
+  times_.push_back({});
+  times_.back().exposed = sc_core::sc_time_stamp();
+  tell(static_cast<std::int64_t>(times_.size()) - 1, FrameStep::kExposed);
+}
+
+void FrameLedger::first_byte(std::int64_t frame) {
+  sc_core::sc_time& date = of(frame).first_byte;
+  if (date != sc_core::SC_ZERO_TIME) return;
+  date = sc_core::sc_time_stamp();
+  tell(frame, FrameStep::kFirstByte);
+}
+
+void FrameLedger::in_memory(std::int64_t frame) {
+  of(frame).in_memory = sc_core::sc_time_stamp();
+  tell(frame, FrameStep::kInMemory);
+}
+
+void FrameLedger::core_started(std::int64_t frame) {
+  of(frame).core_started = sc_core::sc_time_stamp();
+  tell(frame, FrameStep::kCoreStarted);
+}
+
+void FrameLedger::results_in_memory(std::int64_t frame, const sc_core::sc_time& first_disparity,
+                                    const sc_core::sc_time& last_disparity) {
+  FrameTimes& times = of(frame);
+  times.results_in_memory = sc_core::sc_time_stamp();
+  times.first_disparity = first_disparity;
+  times.last_disparity = last_disparity;
+  tell(frame, FrameStep::kResultsInMemory);
+}
+
+void FrameLedger::at_host(std::int64_t frame) {
+  FrameTimes& times = of(frame);
+  times.at_host = sc_core::sc_time_stamp();
+  tell(frame, FrameStep::kAtHost);
+  latencies_.add(static_cast<std::size_t>(frame), times);
+}
+
+}  // namespace parallax
