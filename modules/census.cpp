@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "modules/area.hpp"
 #include "tlm/error.hpp"
 
 namespace parallax {
@@ -25,7 +26,7 @@ template <class Compare>
 void set_bits(const Gray* neighbour, const Gray* centre, int width, std::uint8_t bit, std::uint8_t* out,
               Compare compare) {
   for (int x = 0; x < width; ++x) {
-    out[x] = static_cast<std::uint8_t>(out[x] | (compare(neighbour[x], centre[x]) ? bit : 0));
+    out[x] = out[x] | (compare(neighbour[x], centre[x]) ? bit : 0);
   }
 }
 
@@ -58,11 +59,11 @@ void CensusConfig::validate() const {
 Census::Census(const CensusConfig& config, int width, int height)
     : config_(config), width_(width), height_(height), pad_(config.window_width / 2) {
   config_.validate();
-  const auto line = static_cast<std::size_t>(width_ + 2 * pad_);
-  lines_.resize(line * static_cast<std::size_t>(config_.window_height));
+  const int line = width_ + 2 * pad_;
+  lines_.resize(area(config_.window_height, line));
   zero_line_.assign(line, 0);
-  byte_.resize(static_cast<std::size_t>(width_));
-  codes_.resize(static_cast<std::size_t>(width_));
+  byte_.resize(width_);
+  codes_.resize(width_);
 }
 
 std::int64_t Census::storage_bits() const {
@@ -112,8 +113,7 @@ void Census::transform(int y, const RowSink<CensusCode>& emit) {
     const int place = i < bits / 2 ? i : i + 1;  // the centre is no neighbour
     const int dx = place % config_.window_width - half_width;
     const int dy = place / config_.window_width - half_height;
-    set_bits(config_.comparison, line_for(y + dy) + dx, centre, width_,
-             static_cast<std::uint8_t>(1U << (bit % 8)), byte_.data());
+    set_bits(config_.comparison, line_for(y + dy) + dx, centre, width_, 1U << (bit % 8), byte_.data());
     if (bit % 8 == 7 || bit == bits - 1) flush(bit / 8);
   }
 

@@ -38,9 +38,9 @@ Consistency::Consistency(const ConsistencyConfig& config, DisparityRange range, 
     : config_(config),
       range_(range),
       width_(width),
-      right_lowest_(static_cast<std::size_t>(width + range.last())),
+      right_lowest_(width + range.last()),
       right_index_(right_lowest_.size()),
-      row_(static_cast<std::size_t>(width)) {
+      row_(width) {
   config_.validate();
 }
 
@@ -72,13 +72,13 @@ void Consistency::push(const Cost* costs, const Disparity* disparities, const Ro
   if (config_.enabled) {
     match_right(costs);
     for (int x = 0; x < width_; ++x) {
-      Disparity& left = row_[static_cast<std::size_t>(x)];
+      Disparity& left = row_[x];
       if (!left.valid()) continue;
       const int d_left = integer_disparity(left);
       const int u = x - d_left;
       bool keep = config_.outside_match == OutsideMatch::kKeep;
       if (u >= 0) {
-        const int d_right = range_.offset + right_index_[static_cast<std::size_t>(width_ - 1 - u)];
+        const int d_right = range_.offset + right_index_[width_ - 1 - u];
         keep = std::abs(d_left - d_right) <= config_.threshold;
       }
       if (!keep) left = {kInvalidDisparity, Cause::kConsistency};

@@ -25,8 +25,8 @@ GapInterpolation::GapInterpolation(const GapInterpolationConfig& config, int wid
       width_(width),
       height_(height),
       rows_(config.l_max + 2, width, 0, {}),
-      vertical_runs_(static_cast<std::size_t>(width)),
-      output_(static_cast<std::size_t>(width)) {}
+      vertical_runs_(width),
+      output_(width) {}
 
 void GapInterpolation::push(const Disparity* row, const RowSink<Disparity>& emit) {
   if (!config_.enabled) return emit(row);
@@ -63,7 +63,7 @@ void GapInterpolation::update_vertical_runs(int y) {
   const Disparity* above = y > 0 ? rows_.row(y - 1) : nullptr;
   for (int x = 0; x < width_; ++x) {
     if (!is_gap(row[x])) continue;
-    VerticalRun& vertical = vertical_runs_[static_cast<std::size_t>(x)];
+    VerticalRun& vertical = vertical_runs_[x];
     if (above == nullptr || !is_gap(above[x])) vertical = {vertical_run(x, y), y};
   }
 }
@@ -80,13 +80,13 @@ void GapInterpolation::fill_row(int y) {
     while (x < width_ && is_gap(row[x])) ++x;
     const Run horizontal = begin > 0 && x < width_ ? bridge(row[begin - 1], row[x], x - begin) : Run{};
     for (int u = begin; u < x; ++u) {
-      const auto& [vertical, top] = vertical_runs_[static_cast<std::size_t>(u)];
+      const auto& [vertical, top] = vertical_runs_[u];
       const bool across =
           horizontal.length > 0 && (vertical.length == 0 || horizontal.length <= vertical.length);
       if (across) {
-        output_[static_cast<std::size_t>(u)] = fill(horizontal, u - begin + 1);
+        output_[u] = fill(horizontal, u - begin + 1);
       } else if (vertical.length > 0) {
-        output_[static_cast<std::size_t>(u)] = fill(vertical, y - top + 1);
+        output_[u] = fill(vertical, y - top + 1);
       }
     }
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "modules/hamming_row.hpp"
+#include "modules/area.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -16,10 +17,10 @@ void count_differences(std::uint8_t code, const std::uint8_t* __restrict others,
                        std::uint8_t* __restrict out) {
   for (int i = 0; i < n; ++i) {
     auto v = static_cast<std::uint8_t>(code ^ others[i]);
-    v = static_cast<std::uint8_t>(v - ((v >> 1) & 0x55));
-    v = static_cast<std::uint8_t>((v & 0x33) + ((v >> 2) & 0x33));
-    v = static_cast<std::uint8_t>((v + (v >> 4)) & 0x0F);
-    out[i] = static_cast<std::uint8_t>(kAdd ? out[i] + v : v);
+    v = v - ((v >> 1) & 0x55);
+    v = (v & 0x33) + ((v >> 2) & 0x33);
+    v = (v + (v >> 4)) & 0x0F;
+    out[i] = kAdd ? out[i] + v : v;
   }
 }
 
@@ -33,7 +34,7 @@ HammingRow::HammingRow(const MatchingConfig& config, int width, int code_bits)
       weight_(static_cast<std::uint8_t>(config.cost_weight)),
       planes_((code_bits + 7) / 8),
       plane_size_(width + range_.last()) {
-  right_.resize(static_cast<std::size_t>(planes_) * static_cast<std::size_t>(plane_size_));
+  right_.resize(area(planes_, plane_size_));
 }
 
 void HammingRow::compute(const CensusCode* left, const CensusCode* right, std::uint8_t* costs) {
@@ -55,7 +56,7 @@ void HammingRow::compute(const CensusCode* left, const CensusCode* right, std::u
       std::fill(costs + inside, costs + count, static_cast<std::uint8_t>(code_bits_));
     }
     if (weight_ != 1) {
-      for (int k = 0; k < count; ++k) costs[k] = static_cast<std::uint8_t>(costs[k] * weight_);
+      for (int k = 0; k < count; ++k) costs[k] = costs[k] * weight_;
     }
   }
 }

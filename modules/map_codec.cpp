@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "modules/area.hpp"
 #include "modules/map_decoder.hpp"
 #include "tlm/error.hpp"
 
@@ -39,7 +40,7 @@ class BitWriter {
   /// At most 32 bits.
   void put(std::int32_t value, int bits) {
     const std::uint64_t mask = (std::uint64_t{1} << bits) - 1;
-    pending_ |= (static_cast<std::uint64_t>(static_cast<std::uint32_t>(value)) & mask) << count_;
+    pending_ |= (value & mask) << count_;
     count_ += bits;
     for (; count_ >= 8; count_ -= 8, pending_ >>= 8) {
       *end_++ = static_cast<std::uint8_t>(pending_);
@@ -79,7 +80,7 @@ class RowEncoder {
       const int count = std::min(kBlockPixels, width_ - begin);
       std::array<int, kComponents> widths{};
       for (int i = 0; i < count; ++i) {
-        Components& r = residuals[static_cast<std::size_t>(i)];
+        Components& r = residuals[i];
         r = residual(begin + i);
         for (std::size_t c = 0; c < r.size(); ++c) {
           widths[c] = std::max(widths[c], bits_of(r[c]));
@@ -90,11 +91,11 @@ class RowEncoder {
       }
       for (int i = 0; i < count; ++i) {
         for (std::size_t c = 0; c < widths.size(); ++c) {
-          writer.put(residuals[static_cast<std::size_t>(i)][c], widths[c]);
+          writer.put(residuals[i][c], widths[c]);
         }
       }
     }
-    bytes.resize(static_cast<std::size_t>(writer.finish() - bytes.data()));
+    bytes.resize(writer.finish() - bytes.data());
   }
 
  private:
@@ -124,11 +125,11 @@ class RowEncoder {
 }  // namespace
 
 double EncodedMap::bytes_per_pixel() const {
-  return static_cast<double>(bytes.size()) / (2.0 * static_cast<double>(width) * static_cast<double>(height));
+  return static_cast<double>(bytes.size()) / (2.0 * width * height);
 }
 
 MapEncoder::MapEncoder(int width, int height, const OffsetRange& range)
-    : map_{width, height, range, {}, {}}, previous_(static_cast<std::size_t>(std::max(width, 0))) {
+    : map_{width, height, range, {}, {}}, previous_(std::max(width, 0)) {
   range.validate();
   if (width < 1 || height < 1) {
     throw std::invalid_argument(fmt::format("map of {}x{} pixels", width, height));
@@ -161,7 +162,7 @@ EncodedMap MapEncoder::take() {
 
 EncodedMap encode(const RectificationMap& map) {
   MapEncoder encoder(map.width, map.height, map.range);
-  if (map.offsets.size() != static_cast<std::size_t>(map.width) * static_cast<std::size_t>(map.height)) {
+  if (map.offsets.size() != area(map.width, map.height)) {
     throw std::invalid_argument(
         fmt::format("map of {}x{} pixels with {} offsets", map.width, map.height, map.offsets.size()));
   }
@@ -171,10 +172,10 @@ EncodedMap encode(const RectificationMap& map) {
 
 void decode_rows(const EncodedMap& encoded, const RowSink<OffsetPair>& emit) {
   MapDecoder decoder(encoded.range, encoded.width, encoded.height);
-  std::vector<OffsetPair> row(static_cast<std::size_t>(encoded.width));
+  std::vector<OffsetPair> row(encoded.width);
   std::size_t begin = 0;
   for (int y = 0; y < encoded.height; ++y) {
-    const std::size_t size = encoded.row_bytes.at(static_cast<std::size_t>(y));
+    const std::size_t size = encoded.row_bytes.at(y);
     if (begin + size > encoded.bytes.size()) {
       throw UserError(fmt::format("rectification map: row {} ends at byte {} of {}", y, begin + size,
                                   encoded.bytes.size()));

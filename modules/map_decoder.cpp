@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "modules/area.hpp"
 #include "tlm/error.hpp"
 
 namespace parallax {
@@ -54,9 +55,7 @@ class ImageState {
   }
 
  private:
-  std::int32_t wrap(std::int32_t value) const {
-    return sign_extend(static_cast<std::uint32_t>(value), offset_bits_);
-  }
+  std::int32_t wrap(std::int32_t value) const { return sign_extend(value, offset_bits_); }
 
   int offset_bits_;
   std::int32_t left_dx_ = 0;
@@ -69,7 +68,7 @@ Offset take(const std::uint8_t* bytes, std::size_t& bit, const Widths& width, co
   const std::uint64_t word = fetch(bytes, bit);
   const std::int32_t dx = sign_extend(static_cast<std::uint32_t>(word), width.dx);
   const std::int32_t dy = sign_extend(static_cast<std::uint32_t>(word >> width.dx), width.dy);
-  bit += static_cast<std::size_t>(width.dx + width.dy);
+  bit += width.dx + width.dy;
   return state.next(up, dx, dy);
 }
 
@@ -78,15 +77,15 @@ const OffsetRange& validated(const OffsetRange& range) {
   return range;
 }
 
-std::size_t blocks(int width) { return static_cast<std::size_t>((width + kBlockPixels - 1) / kBlockPixels); }
+std::size_t blocks(int width) { return (width + kBlockPixels - 1) / kBlockPixels; }
 
 }  // namespace
 
 std::size_t least_row_bytes(int width) { return blocks(width) * kHeaderBits / 8; }
 
 std::size_t worst_row_bytes(int width, const OffsetRange& range) {
-  const std::size_t residuals = static_cast<std::size_t>(width) * kComponents;
-  return (blocks(width) * kHeaderBits + residuals * static_cast<std::size_t>(range.offset_bits()) + 7) / 8;
+  const std::size_t residuals = area(width, kComponents);
+  return (blocks(width) * kHeaderBits + residuals * range.offset_bits() + 7) / 8;
 }
 
 MapDecoder::MapDecoder(const OffsetRange& range, int width, int height)
@@ -94,12 +93,10 @@ MapDecoder::MapDecoder(const OffsetRange& range, int width, int height)
       offset_bits_(range_.offset_bits()),
       width_(width),
       height_(height),
-      previous_(static_cast<std::size_t>(width)),
+      previous_(width),
       bytes_(worst_row_bytes(width, range_) + kPadding) {}
 
-std::int64_t MapDecoder::storage_bits() const {
-  return static_cast<std::int64_t>(width_) * kComponents * offset_bits_;
-}
+std::int64_t MapDecoder::storage_bits() const { return std::int64_t{width_} * kComponents * offset_bits_; }
 
 void MapDecoder::fail(const char* what, int x, std::size_t bit) const {
   throw UserError(
@@ -140,7 +137,7 @@ std::size_t MapDecoder::decode(std::size_t size, OffsetPair* out, std::uint32_t*
     std::array<int, kComponents> widths{};
     int pair_bits = 0;
     for (std::size_t i = 0; i < widths.size(); ++i) {
-      widths[i] = static_cast<int>((header >> (i * kWidthFieldBits)) & ((1U << kWidthFieldBits) - 1U));
+      widths[i] = (header >> (i * kWidthFieldBits)) & ((1U << kWidthFieldBits) - 1U);
       if (widths[i] > offset_bits_) {
         fail("a residual is wider than an offset", begin, bit);
       }
@@ -148,11 +145,11 @@ std::size_t MapDecoder::decode(std::size_t size, OffsetPair* out, std::uint32_t*
     }
     bit += kHeaderBits;
     const int end = std::min(begin + kBlockPixels, width_);
-    if (bit + static_cast<std::size_t>((end - begin) * pair_bits) > size * 8) {
+    if (bit + (end - begin) * pair_bits > size * 8) {
       fail("the row ends within the block", begin, bit);
     }
     for (int x = begin; x < end; ++x) {
-      const OffsetPair& up = previous_[static_cast<std::size_t>(x)];
+      const OffsetPair& up = previous_[x];
       out[x].left = take(bytes_.data(), bit, {widths[0], widths[1]}, up.left, left);
       out[x].right = take(bytes_.data(), bit, {widths[2], widths[3]}, up.right, right);
       if (end_bit != nullptr) {

@@ -58,7 +58,7 @@ void put(std::vector<std::uint8_t>& bytes, std::size_t at, std::uint64_t value, 
 std::uint64_t get(const std::vector<std::uint8_t>& bytes, std::size_t at, std::size_t size) {
   std::uint64_t value = 0;
   for (std::size_t i = 0; i < size; ++i) {
-    value |= static_cast<std::uint64_t>(bytes[at + i]) << (8 * i);
+    value |= std::uint64_t{bytes[at + i]} << (8 * i);
   }
   return value;
 }
@@ -121,17 +121,16 @@ std::vector<std::uint8_t> to_file_bytes(const EncodedMap& map) {
   std::vector<std::uint8_t> bytes(kHeaderBytes + table + map.bytes.size());
   std::copy(kMagic.begin(), kMagic.end(), bytes.begin());
   put(bytes, kVersionAt, kVersion, 2);
-  put(bytes, kFractionBitsAt, static_cast<std::uint64_t>(map.range.fraction_bits), 1);
+  put(bytes, kFractionBitsAt, map.range.fraction_bits, 1);
   put(bytes, kBlockPixelsAt, map_code::kBlockPixels, 1);
-  put(bytes, kWindowAt, static_cast<std::uint64_t>(map.range.window), 2);
-  put(bytes, kWidthAt, static_cast<std::uint64_t>(map.width), 4);
-  put(bytes, kHeightAt, static_cast<std::uint64_t>(map.height), 4);
+  put(bytes, kWindowAt, map.range.window, 2);
+  put(bytes, kWidthAt, map.width, 4);
+  put(bytes, kHeightAt, map.height, 4);
   put(bytes, kTotalAt, bytes.size(), 8);
   for (std::size_t y = 0; y < map.row_bytes.size(); ++y) {
     put(bytes, kHeaderBytes + y * kRowLengthBytes, map.row_bytes[y], kRowLengthBytes);
   }
-  std::copy(map.bytes.begin(), map.bytes.end(),
-            bytes.begin() + static_cast<std::ptrdiff_t>(kHeaderBytes + table));
+  std::copy(map.bytes.begin(), map.bytes.end(), bytes.begin() + kHeaderBytes + table);
   put(bytes, kChecksumAt, crc32(bytes.data() + kVersionAt, bytes.size() - kVersionAt), 4);
   return bytes;
 }
@@ -140,17 +139,20 @@ EncodedMap from_file_bytes(const std::vector<std::uint8_t>& bytes, const std::st
   check_identity(bytes, name);
   check_fields(bytes, name);
   EncodedMap map;
-  map.width = static_cast<int>(get(bytes, kWidthAt, 4));
-  map.height = static_cast<int>(get(bytes, kHeightAt, 4));
-  map.range.window = static_cast<int>(get(bytes, kWindowAt, 2));
-  map.range.fraction_bits = static_cast<int>(get(bytes, kFractionBitsAt, 1));
+  const auto number = [&](std::size_t at, std::size_t size) {
+    return static_cast<int>(get(bytes, at, size));
+  };
+  map.width = number(kWidthAt, 4);
+  map.height = number(kHeightAt, 4);
+  map.range.window = number(kWindowAt, 2);
+  map.range.fraction_bits = number(kFractionBitsAt, 1);
   try {
     map.range.validate();
   } catch (const UserError& error) {
     fail(name, error.what());
   }
   std::uint64_t sum = 0;
-  for (std::size_t y = 0; y < static_cast<std::size_t>(map.height); ++y) {
+  for (int y = 0; y < map.height; ++y) {
     const std::size_t at = kHeaderBytes + y * kRowLengthBytes;
     const std::uint64_t row = get(bytes, at, kRowLengthBytes);
     const std::size_t least = least_row_bytes(map.width);
@@ -167,7 +169,7 @@ EncodedMap from_file_bytes(const std::vector<std::uint8_t>& bytes, const std::st
     fail(name, fmt::format("malformed rectification map: its rows end at byte {} of {}", rows_at + sum,
                            bytes.size()));
   }
-  map.bytes.assign(bytes.begin() + static_cast<std::ptrdiff_t>(rows_at), bytes.end());
+  map.bytes.assign(bytes.begin() + rows_at, bytes.end());
   return map;
 }
 

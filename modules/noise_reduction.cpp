@@ -27,10 +27,10 @@ NoiseReduction::NoiseReduction(const NoiseReductionConfig& config, int width, in
       half_(config.window / 2),
       rows_(half_ + 1, width, 0, {}),
       values_(2 * half_ + 1, width, half_, kSimilarToNone),
-      sums_(static_cast<std::size_t>(width)),
-      counts_(static_cast<std::size_t>(width)) {
+      sums_(width),
+      counts_(width) {
   reciprocals_.push_back(0);
-  for (std::uint64_t n = 1; n <= static_cast<std::uint64_t>(config.window * config.window); ++n) {
+  for (int n = 1; n <= config.window * config.window; ++n) {
     reciprocals_.push_back((std::uint64_t{1} << 32) / (2 * n) + 1);
   }
 }
@@ -68,7 +68,7 @@ void NoiseReduction::mean_row(int y, Disparity* out) {
       for (int x = 0; x < width; ++x) {
         const bool counted = similar(centre[x], other[x], max_difference);
         sums[x] += counted ? other[x] : 0U;
-        counts[x] = static_cast<std::uint16_t>(counts[x] + counted);
+        counts[x] += counted;
       }
     }
   }

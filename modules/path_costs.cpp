@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "modules/area.hpp"
+
 namespace parallax {
 namespace {
 
@@ -52,9 +54,8 @@ Path::Path(Direction direction, const MatchingConfig& config, int width)
       p2_(static_cast<std::int16_t>(config.p2)),
       width_(width),
       slots_(direction.rows_up == 0 ? 2 : width + 2) {
-  const auto stride = static_cast<std::size_t>(count_ + PathCosts::kGuard);
-  costs_.assign(stride * static_cast<std::size_t>(slots_) + PathCosts::kGuard, kNever);
-  minima_.resize(static_cast<std::size_t>(slots_));
+  costs_.assign(area(slots_, count_ + PathCosts::kGuard) + PathCosts::kGuard, kNever);
+  minima_.resize(slots_);
 }
 
 PathCosts Path::slot(int position) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "modules/rectification.hpp"
+#include "modules/area.hpp"
 
 #include <fmt/format.h>
 
@@ -19,14 +20,9 @@ const RectificationConfig& validated(const RectificationConfig& config) {
 }  // namespace
 
 Rectification::Ring::Ring(int rows, int width, int margin)
-    : rows_(rows),
-      width_(width),
-      margin_(margin),
-      pixels_(static_cast<std::size_t>(rows) * static_cast<std::size_t>(width + 2 * margin)) {}
+    : rows_(rows), width_(width), margin_(margin), pixels_(area(rows, width + 2 * margin)) {}
 
-std::size_t Rectification::Ring::begin(int y) const {
-  return static_cast<std::size_t>(y % rows_) * static_cast<std::size_t>(width_ + 2 * margin_);
-}
+std::size_t Rectification::Ring::begin(int y) const { return area(y % rows_, width_ + 2 * margin_); }
 
 const Gray* Rectification::Ring::row(int y) const { return pixels_.data() + begin(y) + margin_; }
 
@@ -43,9 +39,8 @@ Rectification::Rectification(const RectificationConfig& config, int width, int h
       height_(height),
       left_(config.range.window, width, config.range.reach() + 1),
       right_(config.range.window, width, config.range.reach() + 1),
-      lines_(static_cast<std::size_t>(config.range.window) + 1),
-      out_{std::vector<Gray>(static_cast<std::size_t>(width)),
-           std::vector<Gray>(static_cast<std::size_t>(width))} {}
+      lines_(config.range.window + 1),
+      out_{std::vector<Gray>(width), std::vector<Gray>(width)} {}
 
 std::int64_t Rectification::storage_bits() const {
   constexpr std::int64_t kImages = 2;
@@ -89,8 +84,8 @@ void Rectification::emit_ready(const Emit& emit) {
 
 void Rectification::rectify(const Ring& image, const OffsetPair* map, Offset OffsetPair::*side, Gray* out) {
   const int reach = config_.range.reach();
-  for (std::size_t i = 0; i < lines_.size(); ++i) {
-    lines_[i] = image.row(std::clamp(rows_out_ - reach + static_cast<int>(i), 0, rows_in_ - 1));
+  for (int i = 0; i <= config_.range.window; ++i) {
+    lines_[i] = image.row(std::clamp(rows_out_ - reach + i, 0, rows_in_ - 1));
   }
   const int shift = config_.range.fraction_bits;
   const int scale = 1 << shift;

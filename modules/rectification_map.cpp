@@ -5,6 +5,7 @@
 
 #include <stdexcept>
 
+#include "modules/area.hpp"
 #include "tlm/error.hpp"
 
 namespace parallax {
@@ -46,7 +47,7 @@ RectificationMap RectificationMap::columns(int first, int count) const {
         fmt::format("columns {}..{} of a map of width {}", first, first + count - 1, width));
   }
   RectificationMap part{count, height, range, {}};
-  part.offsets.reserve(static_cast<std::size_t>(count) * static_cast<std::size_t>(height));
+  part.offsets.reserve(area(count, height));
   for (int y = 0; y < height; ++y) {
     part.offsets.insert(part.offsets.end(), row(y) + first, row(y) + first + count);
   }
@@ -58,8 +59,7 @@ RectificationMap identity_map(int width, int height, const OffsetRange& range) {
   if (width < 1 || height < 1) {
     throw UserError(fmt::format("identity map: {}x{} is not an image size", width, height));
   }
-  return {width, height, range,
-          std::vector<OffsetPair>(static_cast<std::size_t>(width) * static_cast<std::size_t>(height))};
+  return {width, height, range, std::vector<OffsetPair>(area(width, height))};
 }
 
 }  // namespace parallax

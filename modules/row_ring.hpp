@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "modules/area.hpp"
+
 namespace parallax {
 
 /// The last `rows` rows of a frame, addressed by their row number, with `margin` cells of `fill` on both
@@ -12,17 +14,14 @@ template <class T>
 class RowRing {
  public:
   RowRing(int rows, int width, int margin, T fill)
-      : rows_(rows),
-        margin_(margin),
-        stride_(width + 2 * margin),
-        cells_(static_cast<std::size_t>(rows) * static_cast<std::size_t>(stride_), fill) {}
+      : rows_(rows), margin_(margin), stride_(width + 2 * margin), cells_(area(rows, stride_), fill) {}
 
   /// Column 0 of row y; columns -margin .. width+margin-1 may be read.
   T* row(int y) { return cells_.data() + offset(y); }
   const T* row(int y) const { return cells_.data() + offset(y); }
 
  private:
-  std::ptrdiff_t offset(int y) const { return static_cast<std::ptrdiff_t>(y % rows_) * stride_ + margin_; }
+  std::ptrdiff_t offset(int y) const { return std::ptrdiff_t{y % rows_} * stride_ + margin_; }
 
   int rows_;
   int margin_;

@@ -23,7 +23,7 @@ Speckle::Pass::Pass(const SpeckleConfig& config, int width, int height)
       min_count_((config.min_similar_percent * config.window * config.window + 99) / 100),
       rows_(half_ + 1, width, 0, {}),
       values_(config.window, width, half_, kSimilarToNone),
-      counts_(static_cast<std::size_t>(width)) {}
+      counts_(width) {}
 
 void Speckle::Pass::push(const Disparity* row, const RowSink<Disparity>& emit) {
   std::copy(row, row + width_, rows_.row(in_row_));
@@ -46,7 +46,7 @@ void Speckle::Pass::filter_row(int y) {
     for (int dx = -half_; dx <= half_; ++dx) {
       const std::uint16_t* other = values_.row(v) + dx;
       for (int x = 0; x < width_; ++x) {
-        counts[x] = static_cast<std::uint16_t>(counts[x] + similar(centre[x], other[x], max_difference_));
+        counts[x] += similar(centre[x], other[x], max_difference_);
       }
     }
   }
@@ -58,7 +58,7 @@ void Speckle::Pass::filter_row(int y) {
 
 Speckle::Speckle(const SpeckleConfig& config, int width, int height)
     : config_((config.validate(), config)), width_(width) {
-  passes_.assign(static_cast<std::size_t>(config.iterations), Pass(config, width, height));
+  passes_.assign(config.iterations, Pass(config, width, height));
 }
 
 void Speckle::push(const Disparity* row, const RowSink<Disparity>& emit) { push_pass(0, row, emit); }

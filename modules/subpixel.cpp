@@ -48,7 +48,7 @@ void SubpixelConfig::validate() const {
 }
 
 Subpixel::Subpixel(const SubpixelConfig& config, DisparityRange range, int width, int height)
-    : config_(config), range_(range), width_(width), height_(height), row_(static_cast<std::size_t>(width)) {
+    : config_(config), range_(range), width_(width), height_(height), row_(width) {
   config_.validate();
 }
 
@@ -64,8 +64,7 @@ void Subpixel::push(const Cost* costs, const RowSink<Disparity>& emit) {
   const bool masked_row = next_row_ < dy || next_row_ >= height_ - dy;
   for (int x = 0; x < width_; ++x) {
     const bool masked = masked_row || x < dx || x >= width_ - dx;
-    row_[static_cast<std::size_t>(x)] =
-        masked ? Disparity{kInvalidDisparity, Cause::kBorder} : refine(costs + x * range_.count);
+    row_[x] = masked ? Disparity{kInvalidDisparity, Cause::kBorder} : refine(costs + x * range_.count);
   }
   next_row_ = next_row_ + 1 == height_ ? 0 : next_row_ + 1;
   emit(row_.data());

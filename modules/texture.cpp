@@ -25,7 +25,7 @@ Texture::Texture(const TextureConfig& config, int width, int height)
       height_(height),
       half_(config.window / 2),
       contrast_(2 * half_ + 1, width, half_, 0),
-      column_sums_(static_cast<std::size_t>(width + 2 * half_), 0) {}
+      column_sums_(width + 2 * half_, 0) {}
 
 void Texture::push_image(const Gray* row, const RowSink<Disparity>& emit) {
   if (!config_.enabled) return;
@@ -54,14 +54,14 @@ Texture::Plain Texture::score_row(int y) {
     const std::uint8_t* contrast = contrast_.row(std::clamp(v, 0, height_ - 1));
     for (int x = 0; x < width; ++x) columns[x] += contrast[x];
   }
-  const auto limit = static_cast<std::uint32_t>(config_.threshold * config_.window * (config_.window - 1));
+  const std::uint32_t limit = config_.threshold * config_.window * (config_.window - 1);
   // The replicated columns outside of the image have no contrast: the zeros on both sides of column_sums_.
   std::uint32_t sum = 0;
   for (int x = 1 - half_; x < half_; ++x) sum += columns[x];
-  Plain plain(static_cast<std::size_t>(width));
+  Plain plain(width);
   for (int x = 0; x < width; ++x) {
     sum += columns[x + half_];
-    plain[static_cast<std::size_t>(x)] = kStepsPerGreyLevel * sum < limit;
+    plain[x] = kStepsPerGreyLevel * sum < limit;
     sum -= columns[x - half_ + 1];
   }
   return plain;

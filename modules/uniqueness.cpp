@@ -24,7 +24,7 @@ void UniquenessConfig::validate() const {
 }
 
 Uniqueness::Uniqueness(const UniquenessConfig& config, DisparityRange range, int width, int /*height*/)
-    : config_(config), range_(range), width_(width), row_(static_cast<std::size_t>(width)) {
+    : config_(config), range_(range), width_(width), row_(width) {
   config_.validate();
 }
 
@@ -48,7 +48,7 @@ void Uniqueness::push(const Cost* costs, const Disparity* disparities, const Row
   std::copy_n(disparities, width_, row_.begin());
   if (config_.enabled) {
     for (int x = 0; x < width_; ++x) {
-      Disparity& d = row_[static_cast<std::size_t>(x)];
+      Disparity& d = row_[x];
       if (d.valid() && !unique(costs + x * range_.count, integer_disparity(d) - range_.offset)) {
         d = {kInvalidDisparity, Cause::kUniqueness};
       }

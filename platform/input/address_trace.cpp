@@ -27,7 +27,7 @@ std::string unpacked_file(const std::string& path) {
   std::string text;
   std::array<char, 1 << 16> buffer{};
   for (;;) {
-    const int read = gzread(file.get(), buffer.data(), static_cast<unsigned>(buffer.size()));
+    const int read = gzread(file.get(), buffer.data(), buffer.size());
     if (read < 0) {
       int code = 0;
       const char* const what = gzerror(file.get(), &code);
@@ -41,7 +41,7 @@ std::string unpacked_file(const std::string& path) {
         throw UserError(fmt::format("{}: ends in the middle of the compressed data", path));
       return text;
     }
-    text.append(buffer.data(), static_cast<std::size_t>(read));
+    text.append(buffer.data(), read);
   }
 }
 

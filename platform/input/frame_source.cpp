@@ -72,7 +72,7 @@ class FileSource final : public FrameSource {
   FileSource(std::vector<ImagePair> pairs, const ImageLimits& limits, std::int64_t limit,
              std::string ground_truth, std::string mask, NoticeSink notice)
       : input_(std::move(pairs), limits, std::move(notice)),
-        frames_(static_cast<std::int64_t>(input_.frames())),
+        frames_(input_.frames()),
         ground_truth_(std::move(ground_truth)),
         mask_(std::move(mask)) {
     if (limit > 0) frames_ = std::min(frames_, limit);
@@ -88,7 +88,7 @@ class FileSource final : public FrameSource {
   int width() const override { return input_.width(); }
   int height() const override { return input_.height(); }
   std::string name() const override { return input_.paths(0).left.string(); }
-  StereoImages load(std::int64_t frame) override { return input_.load(static_cast<std::size_t>(frame)); }
+  StereoImages load(std::int64_t frame) override { return input_.load(frame); }
   std::optional<GroundTruth> truth(std::int64_t) override { return truth_; }
   std::optional<Calibration> calibration() const override { return std::nullopt; }
 

@@ -33,9 +33,9 @@ cv::Mat crop_image(const cv::Mat& padded, const cv::Size& size) {
 std::vector<Disparity> crop_disparities(const std::vector<Disparity>& padded, int padded_width,
                                         const cv::Size& size) {
   std::vector<Disparity> cropped;
-  cropped.reserve(static_cast<std::size_t>(size.area()));
+  cropped.reserve(size.area());
   for (int y = 0; y < size.height; ++y) {
-    const auto row = padded.begin() + static_cast<std::ptrdiff_t>(y) * padded_width;
+    const auto row = padded.begin() + std::ptrdiff_t{y} * padded_width;
     cropped.insert(cropped.end(), row, row + size.width);
   }
   return cropped;

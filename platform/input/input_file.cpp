@@ -29,7 +29,7 @@ std::vector<std::uint8_t> read_file(const std::string& path) {
   std::vector<std::uint8_t> bytes;
   std::vector<std::uint8_t> chunk(std::size_t{1} << 16);
   while (const std::size_t count = std::fread(chunk.data(), 1, chunk.size(), file.get())) {
-    bytes.insert(bytes.end(), chunk.begin(), chunk.begin() + static_cast<std::ptrdiff_t>(count));
+    bytes.insert(bytes.end(), chunk.begin(), chunk.begin() + count);
   }
   if (std::ferror(file.get()) != 0) fail(path, errno);
   return bytes;

@@ -51,7 +51,7 @@ Interval offsets(const cv::Mat& map, double step, bool horizontal) {
   Interval interval;
   for (int y = 0; y < map.rows; ++y) {
     for (int x = 0; x < map.cols; ++x) {
-      const double value = static_cast<double>(map.at<float>(y, x)) - (horizontal ? x : y) * step;
+      const double value = map.at<float>(y, x) - (horizontal ? x : y) * step;
       if (!std::isfinite(value)) {
         return {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
       }

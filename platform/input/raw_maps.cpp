@@ -59,7 +59,7 @@ double rounded(double value) {
 
 // The offset of a coordinate in 1/scale px, before it is known to fit into an integer.
 double offset(float source, int target, int scale) {
-  return rounded(static_cast<double>(source) * scale) - static_cast<double>(target) * scale;
+  return rounded(double{source} * scale) - 1.0 * target * scale;
 }
 
 void survey_image(const cv::Mat& map_x, const cv::Mat& map_y, int first_row, const OffsetRange& range,
@@ -178,7 +178,7 @@ RectificationMap quantise(const RawMaps& maps, const OffsetRange& range) {
 
 void quantise_rows(const RawMaps& band, const OffsetRange& range, const RowSink<OffsetPair>& emit) {
   const int scale = 1 << range.fraction_bits;
-  std::vector<OffsetPair> row(static_cast<std::size_t>(band.left_x.cols));
+  std::vector<OffsetPair> row(band.left_x.cols);
   const auto quantised = [scale](const float* source, int x, int target) {
     return static_cast<std::int16_t>(offset(source[x], target, scale));
   };
@@ -189,7 +189,7 @@ void quantise_rows(const RawMaps& band, const OffsetRange& range, const RowSink<
     const float* const right_y = band.right_y.ptr<float>(i);
     const int y = band.first_row + i;
     for (int x = 0; x < band.left_x.cols; ++x) {
-      OffsetPair& pair = row[static_cast<std::size_t>(x)];
+      OffsetPair& pair = row[x];
       pair.left = {quantised(left_x, x, x), quantised(left_y, x, y)};
       pair.right = {quantised(right_x, x, x), quantised(right_y, x, y)};
     }

@@ -22,7 +22,7 @@ class PaddedMap {
         height_(source.height()),
         processed_(processed),
         encoder_(processed.width, processed.height, range),
-        row_(static_cast<std::size_t>(processed.width)) {}
+        row_(processed.width) {}
 
   void push(const OffsetPair* row) {
     const auto end = std::copy_n(row, width_, row_.begin());
@@ -99,7 +99,7 @@ RectificationChoice choose_rectification(const RunOptions& options, const Offset
     }
     build_map_rows(*calibration, range, push);
   } else {
-    const std::vector<OffsetPair> zeros(static_cast<std::size_t>(source.width()));
+    const std::vector<OffsetPair> zeros(source.width());
     for (int y = 0; y < source.height(); ++y) push(zeros.data());
   }
   choice.map = map.take();

@@ -15,13 +15,16 @@ namespace {
 constexpr std::int64_t kMostFrames = 1'000'000'000;
 
 ImageLimits limits(const MachineConfig& config) {
-  return {static_cast<int>(config.image.max_width), static_cast<int>(config.image.max_height)};
+  ImageLimits largest;
+  largest.width = config.image.max_width;
+  largest.height = config.image.max_height;
+  return largest;
 }
 
 std::unique_ptr<FrameSource> scene(const RunOptions& options, const MachineConfig& config) {
   SceneConfig scene_config = options.scene;
-  if (config.image.width != 0) scene_config.width = static_cast<int>(config.image.width);
-  if (config.image.height != 0) scene_config.height = static_cast<int>(config.image.height);
+  if (config.image.width != 0) scene_config.width = config.image.width;
+  if (config.image.height != 0) scene_config.height = config.image.height;
   if (!options.size.empty()) {
     if (config.image.width != 0 || config.image.height != 0) {
       throw UserError(
@@ -141,8 +144,8 @@ std::unique_ptr<FrameSource> open_source(const RunOptions& options, const Machin
                                                        : find_image_pairs(options.input);
   auto source = file_source(std::move(pairs), limits(config), options.frames.value_or(0),
                             options.ground_truth, options.mask, notice);
-  const auto demand = [&](const char* key, std::uint32_t wanted, int found) {
-    if (wanted != 0 && static_cast<int>(wanted) != found) {
+  const auto demand = [&](const char* key, int wanted, int found) {
+    if (wanted != 0 && wanted != found) {
       throw UserError(fmt::format("{} = {}, but {} has {} px; 0 takes it from the images", key, wanted,
                                   source->name(), found));
     }

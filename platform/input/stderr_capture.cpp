@@ -33,9 +33,8 @@ std::string StderrCapture::text() const {
   std::fflush(stderr);
   // pread leaves the position alone, which is also where the next message goes.
   char buffer[512];
-  for (ssize_t got = 0;
-       (got = ::pread(::fileno(file_), buffer, sizeof buffer, static_cast<off_t>(result.size()))) > 0;) {
-    result.append(buffer, static_cast<std::size_t>(got));
+  for (ssize_t got = 0; (got = ::pread(::fileno(file_), buffer, sizeof buffer, result.size())) > 0;) {
+    result.append(buffer, got);
   }
   return result;
 }

@@ -13,7 +13,7 @@ namespace parallax {
 /// Bytes of one row: pixels in pairs of three bytes. Each row starts at a byte; the device's widths are
 /// multiples of 32, so this matters for odd widths only, whose last pixel takes two bytes, the upper half of
 /// the second zero.
-inline std::size_t packed_row_bytes(int width) { return (static_cast<std::size_t>(width) * 3 + 1) / 2; }
+inline std::size_t packed_row_bytes(int width) { return (3 * width + 1) / 2; }
 
 /// b0 = p0[7:0]; b1 = p0[11:8] | p1[3:0] << 4; b2 = p1[11:4]. The value is in 1/16 px, 0xFFF is invalid.
 std::vector<unsigned char> pack_disparities(const DisparityView& map);

@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "modules/area.hpp"
 #include "modules/pixel.hpp"
 
 namespace parallax {
@@ -18,13 +19,12 @@ inline double in_pixels(const Disparity& disparity) {
 struct DisparityView {
   DisparityView(const std::vector<Disparity>& map, int map_width, int map_height)
       : pixels(map.data()), width(map_width), height(map_height) {
-    if (width < 1 || height < 1 ||
-        map.size() != static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {
+    if (width < 1 || height < 1 || map.size() != area(width, height)) {
       throw std::invalid_argument("a disparity map's size is not that of its pixels");
     }
   }
 
-  const Disparity* row(int y) const { return pixels + static_cast<std::ptrdiff_t>(y) * width; }
+  const Disparity* row(int y) const { return pixels + std::ptrdiff_t{y} * width; }
 
   const Disparity* pixels;
   int width;

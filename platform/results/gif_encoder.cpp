@@ -23,8 +23,7 @@ constexpr std::array<GifByteType, 3> kLoopForEver{1, 0, 0};
 /// C calls it: no exception may leave it.
 int append(GifFileType* gif, const GifByteType* bytes, int count) {
   try {
-    static_cast<std::string*>(gif->UserData)
-        ->append(reinterpret_cast<const char*>(bytes), static_cast<std::size_t>(count));
+    static_cast<std::string*>(gif->UserData)->append(reinterpret_cast<const char*>(bytes), count);
     return count;
   } catch (const std::bad_alloc&) {
     return 0;
@@ -40,7 +39,7 @@ GifEncoder::GifEncoder(const cv::Size& canvas, const std::vector<cv::Vec3b>& pal
       GifMakeMapObject(1 << GifBitSize(count), nullptr), &GifFreeMapObject);
   if (!map) throw std::bad_alloc();
   for (int i = 0; i < count; ++i) {
-    const cv::Vec3b& bgr = palette[static_cast<std::size_t>(i)];
+    const cv::Vec3b& bgr = palette[i];
     map->Colors[i] = {bgr[2], bgr[1], bgr[0]};
   }
   int error = E_GIF_SUCCEEDED;

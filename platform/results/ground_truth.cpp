@@ -84,7 +84,7 @@ GroundTruthScore score(const std::vector<Disparity>& disparity, int width, const
                     size_text(width, height));
   }
   GroundTruthScore result;
-  result.pixels = static_cast<std::int64_t>(disparity.size());
+  result.pixels = disparity.size();
   for (std::size_t i = 0; i < disparity.size(); ++i) {
     if (!truth.scored(i)) continue;
     ++result.scored;
@@ -93,7 +93,7 @@ GroundTruthScore score(const std::vector<Disparity>& disparity, int width, const
     const int error = truth.error(i, disparity[i]);
     result.absolute_error += error;
     for (int limit = 1; limit <= GroundTruthScore::kLimits; ++limit) {
-      result.bad[static_cast<std::size_t>(limit - 1)] += error > limit * GroundTruth::kStepsPerPixel;
+      result.bad[limit - 1] += error > limit * GroundTruth::kStepsPerPixel;
     }
   }
   return result;
@@ -101,12 +101,10 @@ GroundTruthScore score(const std::vector<Disparity>& disparity, int width, const
 
 double GroundTruthScore::coverage() const { return share(valid, scored); }
 
-double GroundTruthScore::bad_share(int limit) const {
-  return share(bad.at(static_cast<std::size_t>(limit - 1)), valid);
-}
+double GroundTruthScore::bad_share(int limit) const { return share(bad.at(limit - 1), valid); }
 
 double GroundTruthScore::bad_share_all(int limit) const {
-  return share(bad.at(static_cast<std::size_t>(limit - 1)) + scored - valid, scored);
+  return share(bad.at(limit - 1) + scored - valid, scored);
 }
 
 double GroundTruthScore::mean_error() const {

@@ -17,7 +17,7 @@ void put_float(std::vector<unsigned char>& out, float value) {
   static_assert(sizeof bits == sizeof value);
   std::memcpy(&bits, &value, sizeof bits);
   for (int shift = 0; shift < 32; shift += 8) {
-    out.push_back(static_cast<unsigned char>((bits >> shift) & 0xFFu));
+    out.push_back((bits >> shift) & 0xFFu);
   }
 }
 

@@ -47,8 +47,8 @@ Scene::Scene(const SceneConfig& config)
 StereoImages Scene::render(int frame) const {
   const std::vector<SceneSurface> surfaces = place_surfaces(config_, frame);
   const auto noise = [&](std::uint64_t camera) {
-    return SensorNoise{scene_hash(scene_hash(config_.seed, camera), static_cast<std::uint64_t>(frame)),
-                       config_.read_noise, config_.shot_noise};
+    return SensorNoise{scene_hash(scene_hash(config_.seed, camera), frame), config_.read_noise,
+                       config_.shot_noise};
   };
   return {left_.render(surfaces, textures_, noise(101)), right_.render(surfaces, textures_, noise(102))};
 }

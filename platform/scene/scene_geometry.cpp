@@ -44,7 +44,7 @@ constexpr Placement kPlacements[] = {
 /// A smooth oscillation between -1 and 1 of parabolas: no library sine, which differs in its last bit by
 /// machine.
 double sway(int frame, double phase) {
-  const double turns = (frame % kPeriod) / static_cast<double>(kPeriod) + phase;
+  const double turns = (frame % kPeriod) / double{kPeriod} + phase;
   const double p = turns - std::floor(turns);
   return p < 0.5 ? 16 * p * (0.5 - p) : -16 * (p - 0.5) * (1 - p);
 }
@@ -101,8 +101,8 @@ std::vector<SceneSurface> place_surfaces(const SceneConfig& config, int frame) {
     s.half_u = row.half_x * width;
     s.half_v = row.half_y * height;
     s.texture = row.texture;
-    s.texture_u = static_cast<int>(scene_hash(config.seed, 1000 + counter) & 4095);
-    s.texture_v = static_cast<int>(scene_hash(config.seed, 2000 + counter) & 4095);
+    s.texture_u = scene_hash(config.seed, 1000 + counter) & 4095;
+    s.texture_v = scene_hash(config.seed, 2000 + counter) & 4095;
     s.brightness = static_cast<int>((row.brightness + jitter(12)) * 256);
     s.contrast = row.contrast;
 

@@ -14,13 +14,13 @@ void add_octave(std::vector<int>& sum, int period_log2, int lattice_log2, int we
   const int period = 1 << period_log2;
   const int lattice = 1 << lattice_log2;
   const int nodes = period / lattice;
-  std::vector<int> smooth(static_cast<std::size_t>(lattice));  // 0..4096: 3 t^2 - 2 t^3
+  std::vector<int> smooth(lattice);  // 0..4096: 3 t^2 - 2 t^3
   for (int i = 0; i < lattice; ++i) {
     const std::int64_t t = (std::int64_t{i} << 12) / lattice;
-    smooth[static_cast<std::size_t>(i)] = static_cast<int>((t * t * (3 * 4096 - 2 * t)) >> 24);
+    smooth[i] = static_cast<int>((t * t * (3 * 4096 - 2 * t)) >> 24);
   }
   const auto node = [&](int x, int y) {
-    const auto index = static_cast<std::uint64_t>((y & (nodes - 1)) * nodes + (x & (nodes - 1)));
+    const std::uint64_t index = (y & (nodes - 1)) * nodes + (x & (nodes - 1));
     return static_cast<int>(scene_hash(seed, index) >> 48) - 32768;
   };
   for (int ny = 0; ny < nodes; ++ny) {
@@ -28,12 +28,12 @@ void add_octave(std::vector<int>& sum, int period_log2, int lattice_log2, int we
       const int v00 = node(nx, ny), v10 = node(nx + 1, ny), v01 = node(nx, ny + 1),
                 v11 = node(nx + 1, ny + 1);
       for (int y = 0; y < lattice; ++y) {
-        const int sy = smooth[static_cast<std::size_t>(y)];
+        const int sy = smooth[y];
         const int left = v00 + (((v01 - v00) * sy) >> 12);
         const int right = v10 + (((v11 - v10) * sy) >> 12);
-        int* row = &sum[static_cast<std::size_t>(((ny << lattice_log2) + y) * period + (nx << lattice_log2))];
+        int* row = &sum[((ny << lattice_log2) + y) * period + (nx << lattice_log2)];
         for (int x = 0; x < lattice; ++x) {
-          row[x] += ((left + (((right - left) * smooth[static_cast<std::size_t>(x)]) >> 12)) * weight) >> 6;
+          row[x] += ((left + (((right - left) * smooth[x]) >> 12)) * weight) >> 6;
         }
       }
     }
@@ -46,8 +46,7 @@ std::vector<int> fractal(int period_log2, int first_lattice_log2, int last_latti
     // Weights grow with the wavelength, as natural images' spectra do; 64 is a gain of one. The sum of all
     // has a standard deviation of a fifth of the full range, so that hardly anything is clipped to a flat
     // area.
-    add_octave(sum, period_log2, lattice, 14 + 3 * lattice,
-               scene_hash(seed, static_cast<std::uint64_t>(lattice)));
+    add_octave(sum, period_log2, lattice, 14 + 3 * lattice, scene_hash(seed, lattice));
   }
   return sum;
 }

@@ -21,13 +21,13 @@ class SceneTexture {
 
   /// Bilinear value at (u, v), both in 1/256 texel and of any sign: 0..65535, the mean is near 32768.
   int sample(std::int64_t u, std::int64_t v) const {
-    const auto x = static_cast<std::uint64_t>(u >> 8) & mask_;
-    const auto y = static_cast<std::uint64_t>(v >> 8) & mask_;
+    const std::uint64_t x = (u >> 8) & mask_;
+    const std::uint64_t y = (v >> 8) & mask_;
     const std::uint16_t* row0 = &texels_[y << shift_];
     const std::uint16_t* row1 = &texels_[((y + 1) & mask_) << shift_];
     const std::uint64_t x1 = (x + 1) & mask_;
-    const int fu = static_cast<int>(u & 255);
-    const int fv = static_cast<int>(v & 255);
+    const int fu = u & 255;
+    const int fv = v & 255;
     const int top = row0[x] * (256 - fu) + row0[x1] * fu;
     const int bottom = row1[x] * (256 - fu) + row1[x1] * fu;
     // 16 + 8 bits so far: drop 4 before the second weight, so that the sum stays within 31 bits.

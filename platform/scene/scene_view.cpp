@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "modules/area.hpp"
 #include "platform/scene/scene_hash.hpp"
 
 namespace parallax {
@@ -123,7 +124,7 @@ void cast_cell(const Candidates& candidates, std::vector<Cast>& row, std::vector
   step.resize(count);
   const bool alone = count == 1;
   for (int y = 0; y < kSide; ++y) {
-    auto& line = light[static_cast<std::size_t>(y / 2)];
+    auto& line = light[y / 2];
     if (y % 2 == 0) {
       line.fill(0);
     }
@@ -149,7 +150,7 @@ void cast_cell(const Candidates& candidates, std::vector<Cast>& row, std::vector
           }
         }
       }
-      line[static_cast<std::size_t>(x / 2)] += shade(candidates[best], best_cast);
+      line[x / 2] += shade(candidates[best], best_cast);
     }
   }
 }
@@ -161,14 +162,12 @@ class Sensor {
     for (int grey = 0; grey < 256; ++grey) {
       const double variance = noise.read_sigma * noise.read_sigma + noise.shot_variance * grey;
       // 1/65536 grey level per unit of scene_normal().
-      gain_[static_cast<std::size_t>(grey)] =
-          static_cast<int>(std::lround(std::sqrt(variance / kSceneNormalVariance) * 65536));
+      gain_[grey] = static_cast<int>(std::lround(std::sqrt(variance / kSceneNormalVariance) * 65536));
     }
   }
 
   std::uint8_t expose(int light, std::uint64_t pixel) const {
-    const std::int64_t noise =
-        std::int64_t{gain_[static_cast<std::size_t>(light >> 10)]} * scene_normal(scene_hash(key_ ^ pixel));
+    const std::int64_t noise = std::int64_t{gain_[light >> 10]} * scene_normal(scene_hash(key_ ^ pixel));
     const std::int64_t value = (std::int64_t{light} * 64 + noise + 32768) >> 16;
     return static_cast<std::uint8_t>(std::clamp<std::int64_t>(value, 0, 255));
   }
@@ -219,7 +218,7 @@ SceneView::SceneView(const SceneLens& lens, const cv::Vec3d& centre, const Scene
       corner_r2_(
           std::max(1.0, (config.width * double(config.width) + config.height * double(config.height)) / 4)),
       centre_(centre) {
-  rays_.reserve(static_cast<std::size_t>(cells_x_ + 1) * static_cast<std::size_t>(cells_y_ + 1));
+  rays_.reserve(area(cells_x_ + 1, cells_y_ + 1));
   for (int y = 0; y <= cells_y_; ++y) {
     for (int x = 0; x <= cells_x_; ++x) {
       // A cell spans its pixels' areas: its corners lie half a pixel outside the pixel centres.
@@ -238,7 +237,7 @@ cv::Mat SceneView::render(const std::vector<SceneSurface>& surfaces, const Scene
   CellLight light;
   for (int cy = 0; cy < cells_y_; ++cy) {
     for (int cx = 0; cx < cells_x_; ++cx) {
-      const cv::Vec2d* top = &rays_[static_cast<std::size_t>(cy * (cells_x_ + 1) + cx)];
+      const cv::Vec2d* top = &rays_[cy * (cells_x_ + 1) + cx];
       const cv::Vec2d* bottom = top + cells_x_ + 1;
       find_candidates(candidates, surfaces, forms, textures, {top[0], top[1], bottom[0], bottom[1]});
       cast_cell(candidates, row, step, light);
@@ -248,7 +247,7 @@ cv::Mat SceneView::render(const std::vector<SceneSurface>& surfaces, const Scene
         for (int x = cx * kCell; x < std::min(width_, (cx + 1) * kCell); ++x) {
           const double dx = x - (width_ - 1) / 2.0;
           const int loss = static_cast<int>(vignetting_ * 65536 * (dx * dx + dy * dy) / corner_r2_);
-          const int sum = light[static_cast<std::size_t>(y % kCell)][static_cast<std::size_t>(x % kCell)];
+          const int sum = light[y % kCell][x % kCell];
           const int seen = static_cast<int>((std::int64_t{sum} * (65536 - loss)) >> 16);
           out[x] = sensor.expose(seen, (static_cast<std::uint64_t>(y) << 32) | static_cast<std::uint64_t>(x));
         }
