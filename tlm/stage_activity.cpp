@@ -12,7 +12,7 @@ const char* name_of(StageActivity activity) {
 }
 
 StageStatistics& StageStatistics::add(const StageStatistics& o, std::int64_t times) {
-  firings += o.firings * static_cast<std::uint64_t>(times);
+  firings += o.firings * times;
   busy += o.busy * times;
   starved += o.starved * times;
   blocked += o.blocked * times;

@@ -21,7 +21,7 @@ class DateQueue {
   /// Those of one date stay in the order in which they come.
   void push(const Event& event) {
     if (first_ >= kRoom && first_ > events_.size() / 2) {
-      events_.erase(events_.begin(), events_.begin() + static_cast<std::ptrdiff_t>(first_));
+      events_.erase(events_.begin(), events_.begin() + first_);
       first_ = 0;
     }
     events_.push_back(event);

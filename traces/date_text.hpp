@@ -20,7 +20,7 @@ class DateText {
     const std::int64_t upper = value / kLower;
     if (upper != upper_) {
       upper_ = upper;
-      digits_ = static_cast<std::size_t>(parallax::put(text_.data(), upper) - text_.data());
+      digits_ = parallax::put(text_.data(), upper) - text_.data();
     }
     std::memcpy(at, text_.data(), text_.size());  // of one size, as that is faster
     at += digits_;

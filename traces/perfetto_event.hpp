@@ -36,7 +36,7 @@ class PerfettoEvent {
   PerfettoEvent(TextBuffer& out, Picoseconds time, Type type, std::uint64_t track)
       : out_(out), at_(out.room(kMost)) {
     packet_ = begin(perfetto_field::kPacket);
-    add(perfetto_field::kTimestamp, static_cast<std::uint64_t>(time.count()));
+    add(perfetto_field::kTimestamp, time.count());
     add(perfetto_field::kSequence, kOurSequence);
     add(perfetto_field::kSequenceFlags, kNeedsState);
     event_ = begin(perfetto_field::kTrackEvent);
@@ -53,7 +53,7 @@ class PerfettoEvent {
 
   void name(std::uint64_t number) { add(perfetto_field::kNameNumber, number); }
   void flow(std::uint64_t id) { add_fixed(perfetto_field::kFlow, id); }
-  void counter(std::int64_t value) { add(perfetto_field::kCounterValue, static_cast<std::uint64_t>(value)); }
+  void counter(std::int64_t value) { add(perfetto_field::kCounterValue, value); }
   void counter(double value) {
     std::uint64_t bits = 0;
     static_assert(sizeof bits == sizeof value);
@@ -63,7 +63,7 @@ class PerfettoEvent {
   void argument(std::uint64_t name_number, std::int64_t value) {
     char* const length = begin(perfetto_field::kAnnotation);
     add(perfetto_field::kAnnotationName, name_number);
-    add(perfetto_field::kIntValue, static_cast<std::uint64_t>(value));
+    add(perfetto_field::kIntValue, value);
     end(length);
   }
   void argument(std::uint64_t name_number, std::string_view text) {
@@ -104,7 +104,7 @@ class PerfettoEvent {
     return length;
   }
   void end(char* length) {
-    const auto bytes = static_cast<std::size_t>(at_ - length) - kLengthBytes;
+    const std::size_t bytes = at_ - length - kLengthBytes;
     length[0] = static_cast<char>(bytes | 0x80);
     length[1] = static_cast<char>(bytes >> 7);
   }

@@ -7,7 +7,7 @@
 namespace parallax {
 namespace {
 
-Picoseconds now() { return Picoseconds(static_cast<std::int64_t>(sc_core::sc_time_stamp().value())); }
+Picoseconds now() { return Picoseconds(sc_core::sc_time_stamp().value()); }
 
 }  // namespace
 

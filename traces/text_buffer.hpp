@@ -50,7 +50,7 @@ class TextBuffer {
     if (kSize - size_ < most) write();
     return text_.get() + size_;
   }
-  void added_until(const char* end) { size_ = static_cast<std::size_t>(end - text_.get()); }
+  void added_until(const char* end) { size_ = end - text_.get(); }
   void write() {
     if (size_ > 0) sink_({text_.get(), std::exchange(size_, 0)});
   }

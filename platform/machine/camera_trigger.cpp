@@ -20,13 +20,13 @@ Ratio cycles_a_frame(double rate, Hertz clock) {
 
 CameraTrigger::CameraTrigger(const CameraConfig& config, Hertz clock)
     : period_(cycles_a_frame(config.frame_rate, clock)),
-      jitter_(Ratio(static_cast<std::uint64_t>(clock.count()), kNano).floor(config.jitter_ns)),
+      jitter_(Ratio(clock.count(), kNano).floor(config.jitter_ns)),
       seed_(config.jitter_seed) {}
 
 Cycles CameraTrigger::exposed(std::int64_t k) const {
-  const auto count = static_cast<std::uint64_t>(k);
+  const std::uint64_t count = k;
   const std::uint64_t late = jitter_ == 0 ? 0 : scene_hash(seed_, count) % (jitter_ + 1);
-  return Cycles(static_cast<std::int64_t>(period_.floor(count) + late));
+  return Cycles(period_.floor(count) + late);
 }
 
 }  // namespace parallax

@@ -82,8 +82,7 @@ bool EthernetLink::gather(std::uint64_t bytes) {
 void EthernetLink::send_packet(std::uint64_t payload) {
   const std::uint64_t overhead = config_.packet_wire_bytes - config_.packet_payload_bytes;
   ready_ = std::max({ready_, wire_free_, host_free_});
-  const Packet packet{ready_, wire_.take(static_cast<std::int64_t>(payload + overhead)),
-                      host_.take(static_cast<std::int64_t>(payload))};
+  const Packet packet{ready_, wire_.take(payload + overhead), host_.take(payload)};
   wire_free_ = packet.begin + packet.wire;
   host_free_ = packet.begin + packet.host;
   sent_ += payload;
@@ -101,7 +100,7 @@ void EthernetLink::send_packet(std::uint64_t payload) {
 void EthernetLink::finish_frame() {
   std::vector<std::uint8_t> bytes;
   if (job_.values) {
-    const auto end = bytes_.begin() + static_cast<std::ptrdiff_t>(job_.bytes);
+    const auto end = bytes_.begin() + job_.bytes;
     bytes.assign(bytes_.begin(), end);
     bytes_.erase(bytes_.begin(), end);
   }
@@ -111,7 +110,7 @@ void EthernetLink::finish_frame() {
 std::uint64_t EthernetLink::packets() const {
   const sc_core::sc_time& now = sc_core::sc_time_stamp();
   const auto begun = [&](const Packet& packet) { return clock_.time_of(packet.begin) <= now; };
-  return past_packets_ + static_cast<std::uint64_t>(std::count_if(packets_.begin(), packets_.end(), begun));
+  return past_packets_ + std::count_if(packets_.begin(), packets_.end(), begun);
 }
 
 Cycles EthernetLink::wire_busy() const { return past_wire_ + passed(&Packet::wire); }

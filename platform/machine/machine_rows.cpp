@@ -4,6 +4,8 @@
 #include <utility>
 #include <vector>
 
+#include "modules/area.hpp"
+
 namespace parallax {
 namespace {
 
@@ -15,7 +17,7 @@ MachineRows::MachineRows(const Machine& machine)
     : machine_(machine),
       height_(machine.input().height),
       tiles_(static_cast<std::int32_t>(machine.tiles().tiles.size())),
-      width_(static_cast<std::uint64_t>(machine.tiles().width)) {
+      width_(machine.tiles().width) {
   if (const auto& unpack = machine.map_port().stage) map_words_ = unpack->stage->output_streams(0).front();
   for (const StageInfo& info : machine.pipeline().stages()) {
     for (unsigned port = 0; port < Stage::kMaxPorts; ++port) {
@@ -28,10 +30,10 @@ MachineRows::MachineRows(const Machine& machine)
 
 void MachineRows::add(const StreamBase& stream, std::uint64_t tokens) {
   if (stream.at_memory()) return;
-  const std::uint64_t rows = static_cast<std::uint64_t>(height_) * static_cast<std::uint64_t>(tiles_);
+  const std::uint64_t rows = area(height_, tiles_);
   if (&stream == map_words_) {
     // A word counts for the row that its first byte belongs to.
-    const auto word = static_cast<std::uint64_t>(machine_.config().dma.map.data_bits / 8);
+    const std::uint64_t word = machine_.config().dma.map.data_bits / 8;
     auto ends = std::make_shared<RowEnds>();
     ends->rows_of_a_tile = height_;
     std::uint64_t bytes = 0;
@@ -42,8 +44,7 @@ void MachineRows::add(const StreamBase& stream, std::uint64_t tokens) {
     streams_[&stream] = ends;
   } else if (tokens % rows == 0) {
     streams_[&stream] = shared(equal_rows(tokens / rows, height_, tiles_));
-  } else if (const std::uint64_t of_a_tile = tokens / static_cast<std::uint64_t>(tiles_);
-             of_a_tile % width_ == 0) {
+  } else if (const std::uint64_t of_a_tile = tokens / tiles_; of_a_tile % width_ == 0) {
     // Records of the matcher's store, of less rows, or of the rows of two passes.
     streams_[&stream] = shared(equal_rows(width_, static_cast<std::int32_t>(of_a_tile / width_), tiles_));
   }
@@ -56,14 +57,14 @@ std::shared_ptr<const RowEnds> MachineRows::of(const StreamBase& stream) const {
 
 StagePorts MachineRows::of(const StageInfo& info) const {
   StagePorts ports;
-  ports.passes = static_cast<std::int64_t>(info.passes);
+  ports.passes = info.passes;
   const auto port = [&](const std::vector<const StreamBase*>& streams) -> std::optional<StagePorts::Port> {
     if (streams.empty() || streams.front() == map_words_) return std::nullopt;
     std::shared_ptr<const RowEnds> rows = of(*streams.front());
     if (!rows) return std::nullopt;
     if (info.passes > 1) {  // a pass is a tile
       auto tile = std::make_shared<RowEnds>(*rows);
-      tile->ends.resize(static_cast<std::size_t>(rows->rows_of_a_tile));
+      tile->ends.resize(rows->rows_of_a_tile);
       rows = tile;
     }
     return StagePorts::Port{0, rows};

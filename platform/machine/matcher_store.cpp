@@ -8,7 +8,7 @@
 namespace parallax {
 namespace {
 
-std::uint64_t whole_bytes(std::int64_t bits) { return static_cast<std::uint64_t>((bits + 7) / 8); }
+std::uint64_t whole_bytes(std::int64_t bits) { return (bits + 7) / 8; }
 
 }  // namespace
 
@@ -32,11 +32,11 @@ std::uint64_t MatcherStore::frame_bytes() const {
 MatcherStore matcher_store(const MachineConfig& config, int width, int height) {
   const MatchingStore bits = Matching(config.matching, width, height, config.census.code_bits()).store();
   StoreLayout layout;
-  layout.width = static_cast<std::uint64_t>(width);
+  layout.width = width;
   layout.word = Bytes(config.dma.buffer.data_bits / 8);
   layout.burst = Bytes(config.dma.buffer.burst_bytes);
   MatcherStore store{layout, layout};
-  const auto all_rows = static_cast<std::uint64_t>(height);
+  const std::uint64_t all_rows = height;
   store.rows.passes = {{all_rows - 1, whole_bytes(bits.first_pass_row)},
                        {all_rows - 1, whole_bytes(bits.second_pass_row)}};
   store.frame.passes = {{all_rows, whole_bytes(bits.frame)}};

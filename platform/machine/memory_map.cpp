@@ -21,7 +21,7 @@ struct Region {
 
 class Layout {
  public:
-  explicit Layout(const MemoryMapConfig& config) : alignment_(static_cast<std::uint64_t>(config.alignment)) {}
+  explicit Layout(const MemoryMapConfig& config) : alignment_(config.alignment) {}
 
   /// Addresses of `number` buffers of `bytes` each.
   std::vector<std::uint64_t> place(const std::string& name, const MemoryMapConfig::Place& config,
@@ -29,7 +29,7 @@ class Layout {
     const std::uint64_t begin = config.address == MemoryMapConfig::kAutomatic
                                     ? aligned(end_)
                                     : static_cast<std::uint64_t>(config.address);
-    const std::uint64_t pitch = config.pitch == 0 ? aligned(bytes) : static_cast<std::uint64_t>(config.pitch);
+    const std::uint64_t pitch = config.pitch == 0 ? aligned(bytes) : config.pitch;
     std::vector<std::uint64_t> addresses;
     for (std::uint32_t i = 0; i < number; ++i) {
       addresses.push_back(begin + i * pitch);
@@ -85,10 +85,8 @@ const char* name_of(BufferKind kind) {
 
 MemoryMap lay_out_memory(const MachineConfig& config, int width, int height, const EncodedMap& map,
                          const MatcherStore& store) {
-  const std::uint64_t image =
-      bytes_of(config.camera.format, static_cast<std::uint64_t>(width)) * static_cast<std::uint64_t>(height);
-  const std::uint64_t result =
-      OutputPacking::row_bytes(width, config.link.output_left()) * static_cast<std::uint64_t>(height);
+  const std::uint64_t image = bytes_of(config.camera.format, width) * height;
+  const std::uint64_t result = OutputPacking::row_bytes(width, config.link.output_left()) * height;
   const MemoryMapConfig& places = config.memory_map;
   Layout layout(places);
   const auto left = layout.place("left", places.left, config.camera.frame_buffers, image);
@@ -100,7 +98,7 @@ MemoryMap lay_out_memory(const MachineConfig& config, int width, int height, con
   if (store.bytes() > 0) {
     result_map.buffer = layout.place("buffer", places.buffer, 1, store.bytes()).front();
   }
-  layout.check(static_cast<std::uint64_t>(config.memory.size_bytes));
+  layout.check(config.memory.size_bytes);
   return result_map;
 }
 

@@ -65,8 +65,8 @@ void Sensor::send(const SensorImage& image) {
     out_bursts.send_row(image->data(), image->size());
     return;
   }
-  const auto width = static_cast<std::size_t>(config_.width);
-  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(row_bytes()));
+  const std::size_t width = config_.width;
+  std::vector<std::uint8_t> bytes(row_bytes());
   for (std::size_t y = 0; y < static_cast<std::size_t>(config_.height); ++y) {
     pack_pixels(config_.format, image->data() + y * width, width, bytes.data());
     out_bursts.send_row(bytes.data(), bytes.size());

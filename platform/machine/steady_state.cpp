@@ -22,7 +22,7 @@ std::int64_t warm_up_frames(const MachineConfig& config) {
 }
 
 std::size_t steady_first(const MachineConfig& config, std::int64_t frames) {
-  return static_cast<std::size_t>(std::max<std::int64_t>(0, std::min(warm_up_frames(config), frames - 2)));
+  return std::max<std::int64_t>(0, std::min(warm_up_frames(config), frames - 2));
 }
 
 std::int64_t frames_to_simulate(const MachineConfig& config, std::int64_t input_frames,

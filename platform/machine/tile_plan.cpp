@@ -26,7 +26,8 @@ Margins margins(const TileConfig& config, const DisparityRange& range) {
 
 // Columns that so many tiles of the full width contribute.
 int columns(int tiles, const TileConfig& config, const Margins& margins) {
-  return tiles * static_cast<int>(config.limit) - (tiles - 1) * margins.both();
+  const int limit = config.limit;
+  return tiles * limit - (tiles - 1) * margins.both();
 }
 
 }  // namespace
@@ -35,8 +36,7 @@ TilePlan one_tile(int width) { return {width, {{0, 0, width}}}; }
 
 int largest_width(const TileConfig& config, const DisparityRange& range) {
   // Further tiles of nothing but margins would add nothing.
-  return std::max(static_cast<int>(config.limit),
-                  columns(static_cast<int>(config.largest_number), config, margins(config, range)));
+  return std::max(columns(1, config, {}), columns(config.largest_number, config, margins(config, range)));
 }
 
 TilePlan plan_tiles(const TileConfig& config, const DisparityRange& range, int width) {
@@ -70,7 +70,7 @@ TilePlan plan_tiles(const TileConfig& config, const DisparityRange& range, int w
     // The last tile ends where the image does; what rounding adds, it shares with the one before.
     const int begin = i + 1 == number ? width - plan.width : i * step;
     plan.tiles.push_back({begin, i == 0 ? 0 : begin + margin.left, width});
-    if (i > 0) plan.tiles[static_cast<std::size_t>(i) - 1].keep_end = begin + margin.left;
+    if (i > 0) plan.tiles[i - 1].keep_end = begin + margin.left;
   }
   return plan;
 }

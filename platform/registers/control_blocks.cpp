@@ -95,7 +95,7 @@ bool ControlBlocks::judge_start() {
     return std::all_of(fields.begin(), fields.end(), [&](const Field& f) { return holds(f.get()); });
   };
   const auto is = [](int size) {
-    return [bits = static_cast<std::uint32_t>(size) & 0xFFFFU](std::uint32_t have) { return have == bits; };
+    return [bits = size & 0xFFFFU](std::uint32_t have) { return have == bits; };
   };
   require(ready_.get() != 0 && hooks_.expected(), "not_ready");
   require(enable_.get() != 0, "disabled");

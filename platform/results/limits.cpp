@@ -124,8 +124,7 @@ class WindowLoads {
   // The cameras set the pace as far as their frames come through.
   PartLoad camera_rate() const {
     const double rate = config_.camera.frame_rate;
-    const auto through =
-        static_cast<std::int64_t>(window_.frames()) + last_.cameras.faulty - first_.cameras.faulty;
+    const std::int64_t through = window_.frames() + last_.cameras.faulty - first_.cameras.faulty;
     return {nullptr, std::min(1.0, static_cast<double>(through) / (seconds_ * rate)), 1.0 / rate};
   }
 
@@ -137,11 +136,10 @@ class WindowLoads {
   }
 
   PartLoad stage(const StageInfo& info) const {
-    const Cycles frame(static_cast<std::int64_t>(info.cycles_per_frame()));
+    const Cycles frame(info.cycles_per_frame());
     const Cycles whole =
         info.first_pass(window_.last).first_firing - info.first_pass(window_.first).first_firing;
-    return {nullptr, ratio(frame * static_cast<std::int64_t>(window_.frames()), whole),
-            info.stage->clock().seconds(frame)};
+    return {nullptr, ratio(frame * window_.frames(), whole), info.stage->clock().seconds(frame)};
   }
 
   const Machine& machine_;

@@ -43,8 +43,8 @@ std::string Progress::line(const std::string& what, std::int64_t done, std::int6
                            std::chrono::duration<double> elapsed) {
   const std::int64_t filled =
       total > 0 ? std::clamp<std::int64_t>(kBarColumns * done / total, 0, kBarColumns) : 0;
-  std::string text = fmt::format("[{:<{}}] {}/{} {}", std::string(static_cast<std::size_t>(filled), '='),
-                                 kBarColumns, done, total, what);
+  std::string text =
+      fmt::format("[{:<{}}] {}/{} {}", std::string(filled, '='), kBarColumns, done, total, what);
   if (done > 0 && done < total) {
     const double left = elapsed.count() / static_cast<double>(done) * static_cast<double>(total - done);
     text += fmt::format(", {} left", duration_text(left));

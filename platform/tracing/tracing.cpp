@@ -26,16 +26,13 @@ std::vector<std::string> split(const std::string& text) {
   return names;
 }
 
-Picoseconds date(const sc_core::sc_time& time) {
-  return Picoseconds(static_cast<std::int64_t>(time.value()));
-}
+Picoseconds date(const sc_core::sc_time& time) { return Picoseconds(time.value()); }
 
 // As often as a row takes at the pace of the slowest stage.
 sc_core::sc_time row_time(const Machine& machine) {
   double longest = 0;
   for (const StageInfo& info : machine.pipeline().stages()) {
-    longest = std::max(
-        longest, info.stage->clock().seconds(Cycles(static_cast<std::int64_t>(info.cycles_per_frame()))));
+    longest = std::max(longest, info.stage->clock().seconds(Cycles(info.cycles_per_frame())));
   }
   return sc_core::sc_time(longest / machine.input().height, sc_core::SC_SEC);
 }
@@ -156,7 +153,7 @@ void Tracing::add_parts() {
 }
 
 void Tracing::delivered(std::int64_t frame) {
-  const FrameTimes& times = machine_.times()[static_cast<std::size_t>(frame)];
+  const FrameTimes& times = machine_.times()[frame];
   FrameRecord record;
   record.frame = frame;
   const auto at = [&record](FrameStep step) -> Picoseconds& {
