@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "modules/token_format.hpp"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+namespace parallax {
+namespace {
+
+// The value of the lowest `width` bits.
+std::int64_t value_of(std::uint64_t bits, const TokenField& field) {
+  if (field.width == 64) return static_cast<std::int64_t>(bits);
+  const auto value = static_cast<std::int64_t>(bits & ((std::uint64_t{1} << field.width) - 1));
+  const bool negative = field.is_signed && (bits >> (field.width - 1) & 1u) != 0;
+  return negative ? value - (std::int64_t{1} << field.width) : value;
+}
+
+}  // namespace
+
+TokenFormat& TokenFormat::field(const std::string& name, std::size_t width, bool is_signed) {
+  fields_.push_back({name, bits_, width, is_signed});
+  bits_ += width;
+  return *this;
+}
+
+TokenFormat& TokenFormat::fields(const std::string& name, std::size_t number, std::size_t width) {
+  for (std::size_t i = 0; i < number; ++i) field(fmt::format("{}_{}", name, i), width);
+  return *this;
+}
+
+std::int64_t TokenFormat::get(const BitVector& bus, std::size_t index) const {
+  const TokenField& field = fields_.at(index);
+  return value_of(bus.get(field.low, field.width), field);
+}
+
+void TokenFormat::set(BitVector& bus, std::size_t index, std::int64_t value) const {
+  const TokenField& field = fields_.at(index);
+  const auto bits = static_cast<std::uint64_t>(value);
+  if (value_of(bits, field) != value) {
+    throw std::out_of_range(fmt::format("{} = {} has no place in {} bits", field.name, value, field.width));
+  }
+  bus.set(field.low, field.width, bits);
+}
+
+}  // namespace parallax
