@@ -12,17 +12,28 @@
 
 namespace parallax {
 
-/// A filter of the disparity map: one disparity in, one out, as much later as the kernel looks ahead.
-/// Interval and latency are configured; storage is the kernel's.
-template <class Kernel, class Config>
-class DisparityFilterStage final : public Stage {
+/// A filter of the disparity map, whatever it does: one disparity in, one out.
+class FilterStage : public Stage {
  public:
   StreamIn<Disparity> in_disparity{"in_disparity"};
   StreamOut<Disparity> out_disparity{"out_disparity"};
 
+  /// Pixels read beyond the one written.
+  virtual std::uint64_t look_ahead() const = 0;
+  virtual Bits storage() const = 0;
+
+ protected:
+  using Stage::Stage;
+};
+
+/// A filter by its kernel: each disparity comes out as much later as the kernel looks ahead. Interval and
+/// latency are configured; storage is the kernel's.
+template <class Kernel, class Config>
+class DisparityFilterStage final : public FilterStage {
+ public:
   DisparityFilterStage(const sc_core::sc_module_name& name, const Config& config, const StageTiming& timing,
                        const StageContext& context)
-      : Stage(name, context.clock, context.dataflow, timing.latency),
+      : FilterStage(name, context.clock, context.dataflow, timing.latency),
         kernel_(std::in_place, config, context.width, context.height),
         changes_(context.height),
         look_ahead_(look_ahead_pixels(context, kernel_->look_ahead_rows(), kernel_->look_ahead_pixels())),
@@ -43,8 +54,8 @@ class DisparityFilterStage final : public Stage {
   /// The configuration for the next frame that was not told yet, or none: as before. What fixes the schedule
   /// must not change.
   void configure(const std::optional<Config>& config) { changes_.push(config); }
-  std::uint64_t look_ahead() const { return look_ahead_; }
-  Bits storage() const { return storage_; }
+  std::uint64_t look_ahead() const override { return look_ahead_; }
+  Bits storage() const override { return storage_; }
 
  private:
   std::optional<Kernel> kernel_;

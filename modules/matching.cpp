@@ -8,8 +8,10 @@
 #include <optional>
 #include <vector>
 
+#include "modules/bit_packer.hpp"
 #include "modules/hamming_row.hpp"
 #include "modules/path_costs.hpp"
+#include "modules/token_formats.hpp"
 #include "tlm/error.hpp"
 
 namespace parallax {
@@ -17,13 +19,8 @@ namespace {
 
 constexpr int kMaxDisparities = 256;
 constexpr int kMaxPenalty = 255;
+constexpr int kCodePiece = 32;     // bits of a code that are packed at once
 constexpr int kMaxCostWeight = 4;  // a weighted cost of 63 bits fits in a byte
-
-int bits_for(int largest) {
-  int bits = 1;
-  while (largest >> bits) ++bits;
-  return bits;
-}
 
 int path_count(unsigned paths) {
   int count = 0;
@@ -38,6 +35,17 @@ void check(const char* key, int value, int low, int high) {
 }
 
 std::size_t product(int a, int b) { return static_cast<std::size_t>(a) * static_cast<std::size_t>(b); }
+
+std::size_t count_of(const MatchingConfig& config) { return static_cast<std::size_t>(config.range().count); }
+
+// Of a path cost, and of a sum of those of the first pass if there is a second one; whatever the penalties.
+int path_bits(const MatchingConfig& config, int code_bits) {
+  return bits_for(config.cost_weight * code_bits + kMaxPenalty);
+}
+int first_sum_bits(const MatchingConfig& config, int code_bits) {
+  const int paths = path_count(config.paths & ~kSouthernPaths);
+  return paths == 0 ? 0 : bits_for(paths * (config.cost_weight * code_bits + kMaxPenalty));
+}
 
 /// The northern and horizontal paths of `paths` as delay lines; `turned`: the paths opposite to the southern
 /// ones, for a frame that is read backwards.
@@ -85,6 +93,7 @@ struct Matching::State {
       : config(matching),
         width(columns),
         height(rows),
+        code_bits(bits),
         count(matching.range().count),
         hamming(matching, columns, bits),
         first_pass(make_paths(matching, columns, false)),
@@ -116,8 +125,46 @@ struct Matching::State {
     }
   }
 
+  /// Hands over row `y` of the path costs that the next row needs, pixels in raster order of the pass.
+  void keep_row(std::vector<Path>& pass, int y, const MatchingKeeper::Take& take) const {
+    if (!take || y + 1 == height) return;
+    const int bits = path_bits(config, code_bits);
+    BitPacker packer;
+    for (int x = 0; x < width; ++x) {
+      for (Path& path : pass) {
+        if (!path.from_above()) continue;
+        const PathCosts here = path.at(x, y);
+        for (int k = 0; k < count; ++k) packer.field(static_cast<std::uint64_t>(here.costs[k]), bits);
+        packer.field(static_cast<std::uint64_t>(*here.minimum), bits);
+      }
+      packer.end_token();
+    }
+    const std::vector<std::uint8_t> records = packer.take();
+    if (!records.empty()) take(records.data(), records.size());
+  }
+
+  /// Hands over what the second pass needs of the row at hand.
+  void keep_frame_row(const MatchingKeeper::Take& take) const {
+    if (!take) return;
+    const int sum_bits = first_sum_bits(config, code_bits);
+    BitPacker packer;
+    for (std::size_t pixel = product(row, width); pixel < product(row + 1, width); ++pixel) {
+      const Cost* pixel_sums = frame_sums.data() + pixel * static_cast<std::size_t>(count);
+      for (int k = 0; k < count && sum_bits > 0; ++k) packer.field(pixel_sums[k], sum_bits);
+      for (const CensusCode code : {left_codes[pixel], right_codes[pixel]}) {
+        for (int low = 0; low < code_bits; low += kCodePiece) {
+          const int bits = std::min(kCodePiece, code_bits - low);
+          packer.field(code >> low & ((CensusCode{1} << bits) - 1), bits);
+        }
+      }
+      packer.end_token();
+    }
+    const std::vector<std::uint8_t> records = packer.take();
+    take(records.data(), records.size());
+  }
+
   /// The southern paths: the frame turned by 180 degrees, added to the sums of the first pass.
-  void sweep_back() {
+  void sweep_back(const MatchingKeeper::Take& take) {
     for (int i = 0; i < height; ++i) {
       const std::size_t first = product(height - 1 - i, width);
       hamming.compute(left_codes.data() + first, right_codes.data() + first, costs.data());
@@ -126,12 +173,14 @@ struct Matching::State {
         Cost* out = frame_sums.data() + first * static_cast<std::size_t>(count) + x * count;
         for (Path& path : second_pass) path.advance(j, i, costs.data() + x * count, out);
       }
+      keep_row(second_pass, i, take);
     }
   }
 
   MatchingConfig config;
   int width;
   int height;
+  int code_bits;
   int count;
   int row = 0;
   HammingRow hamming;
@@ -154,7 +203,8 @@ Matching::Matching(const MatchingConfig& config, int width, int height, int code
 
 Matching::~Matching() = default;
 
-void Matching::push(const CensusCode* left, const CensusCode* right, const RowSink<Cost>& emit) {
+void Matching::push(const CensusCode* left, const CensusCode* right, const RowSink<Cost>& emit,
+                    const MatchingKeeper& keeper) {
   if (state_ == nullptr) state_ = std::make_unique<State>(config_, width_, height_, code_bits_);
   State& s = *state_;
   const std::size_t first = product(s.row, s.width);
@@ -165,17 +215,19 @@ void Matching::push(const CensusCode* left, const CensusCode* right, const RowSi
     std::copy_n(left, s.width, s.left_codes.data() + first);
     std::copy_n(right, s.width, s.right_codes.data() + first);
     s.match(left, right, s.frame_sums.data() + first * static_cast<std::size_t>(s.count));
+    s.keep_frame_row(keeper.frame);
   }
+  s.keep_row(s.first_pass, s.row, keeper.row);
   if (++s.row < s.height) return;
   s.row = 0;
   if (one_pass()) return;
-  s.sweep_back();
+  s.sweep_back(keeper.row);
   for (int y = 0; y < s.height; ++y)
     emit(s.frame_sums.data() + product(y, s.width) * static_cast<std::size_t>(s.count));
 }
 
-int Matching::cost_bits() const {
-  return bits_for(path_count(config_.paths) * (largest_cost() + kMaxPenalty));
+int summed_cost_bits(const MatchingConfig& config, int code_bits) {
+  return bits_for(path_count(config.paths) * (config.cost_weight * code_bits + kMaxPenalty));
 }
 
 int Matching::look_ahead_rows() const { return one_pass() ? 0 : height_ - 1; }
@@ -187,8 +239,7 @@ int Matching::look_ahead_pixels() const {
 }
 
 std::int64_t Matching::path_pixel_bits() const {
-  const int path_bits = bits_for(largest_cost() + kMaxPenalty);
-  return std::int64_t{path_bits} * (config_.range().count + 1);  // with the minimum
+  return path_record_format(1, count_of(config_), path_bits(config_, code_bits_)).width().count();
 }
 
 std::int64_t Matching::storage_bits() const {
@@ -206,7 +257,7 @@ std::int64_t Matching::storage_bits() const {
   std::int64_t bits = path_pixel_bits() * pixels;
   bits += std::int64_t{code_bits_} * config_.range().last();
   if (config_.paths & kPathE) {
-    bits += width * count * (bits_for(largest_cost()) + cost_bits());
+    bits += width * count * (bits_for(largest_cost()) + summed_cost_bits(config_, code_bits_));
   }
   return bits;
 }
@@ -218,9 +269,9 @@ MatchingStore Matching::store() const {
     store.second_pass_row = path_pixel_bits() * path_count(config_.paths & kSouthernPaths);
   }
   if (!one_pass()) {
-    const int first_paths = path_count(config_.paths & ~kSouthernPaths);
-    const int sum_bits = first_paths == 0 ? 0 : bits_for(first_paths * (largest_cost() + kMaxPenalty));
-    store.frame = std::int64_t{config_.range().count} * sum_bits + 2 * code_bits_;
+    store.frame = frame_record_format(count_of(config_), first_sum_bits(config_, code_bits_), code_bits_)
+                      .width()
+                      .count();
   }
   return store;
 }

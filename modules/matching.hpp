@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 
 #include "modules/pixel.hpp"
@@ -82,6 +84,17 @@ struct MatchingStore {
   std::int64_t frame = 0;  ///< sums of the first pass and both images' codes, from one pass to the other
 };
 
+/// Takes what the matcher keeps outside, as it goes through its schedule: a row at a time, of whole records
+/// (token_formats.hpp), a record a pixel. What has no taker is not packed.
+struct MatchingKeeper {
+  using Take = std::function<void(const std::uint8_t* records, std::size_t bytes)>;
+  Take row;    ///< path costs of a row with their minima; of all rows of a pass but the last
+  Take frame;  ///< sums of the first pass and codes of a row
+};
+
+/// Bits of an output value, whatever the penalties are: they are set while the circuit runs.
+int summed_cost_bits(const MatchingConfig& config, int code_bits);
+
 /// Semi-global matching: census codes of a rectified pair to summed path costs.
 ///
 /// With D = range().count and d = o_d + k, k = 0..D-1:
@@ -104,10 +117,8 @@ class Matching {
   ~Matching();
 
   /// One row of `width` codes of each image; emits rows of width * range().count costs.
-  void push(const CensusCode* left, const CensusCode* right, const RowSink<Cost>& emit);
-
-  /// Width of an output value in the circuit.
-  int cost_bits() const;
+  void push(const CensusCode* left, const CensusCode* right, const RowSink<Cost>& emit,
+            const MatchingKeeper& keeper = {});
 
   int look_ahead_rows() const;
   int look_ahead_pixels() const;

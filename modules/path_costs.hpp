@@ -32,6 +32,11 @@ class Path {
   /// Next pixel (column x, row y) in raster order: its path costs from the matching costs, added to `sums`.
   void advance(int x, int y, const std::uint8_t* costs, Cost* sums);
 
+  /// Of a pixel that was advanced to at most a row ago.
+  PathCosts at(int x, int y) { return slot(y * width_ + x); }
+  /// Whether the next row needs them.
+  bool from_above() const { return direction_.rows_up != 0; }
+
  private:
   PathCosts slot(int position);
   int predecessor(int x, int y) const;  ///< raster position, negative if there is none

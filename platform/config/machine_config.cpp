@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "platform/config/machine_config.hpp"
 
+#include <utility>
+
 #include "platform/config/schema.hpp"
 #include "platform/config/stage_schema.hpp"
 
@@ -20,9 +22,12 @@ void MachineConfig::validate() const {
   uniqueness.validate();
   consistency.validate();
   texture.validate();
-  speckle.validate();
-  gap_interpolation.validate();
-  noise_reduction.validate();
+  for (const auto& filter : filters.all()) filter->validate(*this);
+}
+
+void MachineConfig::add(std::unique_ptr<DisparityFilter> filter) {
+  streams.add(filter->stream());
+  filters.add(std::move(filter));
 }
 
 void describe(Schema& schema, MachineConfig& config) {
@@ -44,10 +49,11 @@ void describe(Schema& schema, MachineConfig& config) {
   describe(schema, config.uniqueness);
   describe(schema, config.consistency);
   describe(schema, config.texture);
-  describe(schema, config.speckle);
-  describe(schema, config.gap_interpolation);
-  describe(schema, config.noise_reduction);
+  for (const auto& filter : config.filters.all()) filter->describe_function(schema, config);
   describe(schema, config.timing);
+  for (const auto& filter : config.filters.all()) {
+    describe_timing(schema, filter->name(), "pixels", filter->timing(config));
+  }
   describe(schema, config.energy);
 }
 

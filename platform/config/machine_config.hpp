@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
+
 #include "modules/census.hpp"
 #include "modules/consistency.hpp"
 #include "modules/gap_interpolation.hpp"
@@ -13,6 +15,7 @@
 #include "modules/uniqueness.hpp"
 #include "platform/config/camera_config.hpp"
 #include "platform/config/clock_config.hpp"
+#include "platform/config/disparity_filters.hpp"
 #include "platform/config/dma_config.hpp"
 #include "platform/config/energy_config.hpp"
 #include "platform/config/image_config.hpp"
@@ -51,7 +54,10 @@ struct MachineConfig {
   GapInterpolationConfig gap_interpolation;
   NoiseReductionConfig noise_reduction;
   PipelineTiming timing;
+  DisparityFilters filters = disparity_filters();  ///< behind the texture filter
 
+  /// Puts a filter behind the others.
+  void add(std::unique_ptr<DisparityFilter> filter);
   /// Throws UserError, one line that names the keys, when values are fine alone but not together.
   void validate() const;
 };

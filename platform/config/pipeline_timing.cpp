@@ -4,9 +4,9 @@
 #include "platform/config/schema.hpp"
 
 namespace parallax {
-namespace {
 
-void describe_stage(Schema& schema, const std::string& stage, const std::string& token, StageTiming& timing) {
+void describe_timing(Schema& schema, const std::string& stage, const std::string& token,
+                     StageTiming& timing) {
   schema.integer(stage + ".interval", timing.interval, {1, 1000}, "core cycles",
                  "Initiation interval: cycles between two " + token + ".",
                  derived("paper, table 1: the published rates leave room for one a cycle only"));
@@ -19,21 +19,16 @@ void describe_stage(Schema& schema, const std::string& stage, const std::string&
                  "Cycles lost between two frames.", chosen("not published"));
 }
 
-}  // namespace
-
 void describe(Schema& schema, PipelineTiming& timing) {
-  describe_stage(schema, "map_decoder", "map entries", timing.map_decoder);
-  describe_stage(schema, "rectification", "pixel pairs", timing.rectification);
-  describe_stage(schema, "census", "pixels", timing.census);
-  describe_stage(schema, "matching", "iterations; a pixel takes matching.iterations of them",
-                 timing.matching);
-  describe_stage(schema, "subpixel", "groups of costs", timing.subpixel);
-  describe_stage(schema, "uniqueness", "groups of costs", timing.uniqueness);
-  describe_stage(schema, "consistency", "groups of costs", timing.consistency);
-  describe_stage(schema, "texture", "pixels", timing.texture);
-  describe_stage(schema, "speckle", "pixels", timing.speckle);
-  describe_stage(schema, "gap_interpolation", "pixels", timing.gap_interpolation);
-  describe_stage(schema, "noise_reduction", "pixels", timing.noise_reduction);
+  describe_timing(schema, "map_decoder", "map entries", timing.map_decoder);
+  describe_timing(schema, "rectification", "pixel pairs", timing.rectification);
+  describe_timing(schema, "census", "pixels", timing.census);
+  describe_timing(schema, "matching", "iterations; a pixel takes matching.iterations of them",
+                  timing.matching);
+  describe_timing(schema, "subpixel", "groups of costs", timing.subpixel);
+  describe_timing(schema, "uniqueness", "groups of costs", timing.uniqueness);
+  describe_timing(schema, "consistency", "groups of costs", timing.consistency);
+  describe_timing(schema, "texture", "pixels", timing.texture);
 }
 
 }  // namespace parallax

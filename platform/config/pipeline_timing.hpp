@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
+
 #include "tlm/stage_timing.hpp"
 
 namespace parallax {
@@ -26,6 +28,10 @@ struct PipelineTiming {
   StageTiming noise_reduction{1, 8, 0, 0};
 };
 
+/// Declares interval, latency and overheads of one stage; `token`: what it takes one of an interval.
+void describe_timing(Schema& schema, const std::string& stage, const std::string& token, StageTiming& timing);
+
+/// The same of all stages but the filters of the disparity map, which are a list of their own.
 void describe(Schema& schema, PipelineTiming& timing);
 
 }  // namespace parallax

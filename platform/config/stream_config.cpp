@@ -5,25 +5,33 @@
 #include <stdexcept>
 #include <utility>
 
+#include "platform/config/disparity_filters.hpp"
 #include "platform/config/schema.hpp"
 
 namespace parallax {
 
 const std::vector<std::string>& pipeline_stream_names() {
-  static const std::vector<std::string> names{
-      "left_pixels",     "right_pixels",     "map_words",         "map_entries",   "left_rectified",
-      "right_rectified", "left_texture",     "left_output",       "left_codes",    "right_codes",
-      "costs_subpixel",  "costs_uniqueness", "costs_consistency", "winners",       "unique",
-      "consistent",      "textured",         "despeckled",        "interpolated",  "smoothed",
-      "kept_rows",       "returned_rows",    "kept_frame",        "returned_frame"};
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all{"left_pixels",       "right_pixels",    "map_words",      "map_entries",
+                                 "left_rectified",    "right_rectified", "left_texture",   "left_output",
+                                 "left_codes",        "right_codes",     "costs_subpixel", "costs_uniqueness",
+                                 "costs_consistency", "winners",         "unique",         "consistent",
+                                 "textured"};
+    const std::vector<std::string> filtered = disparity_filters().streams();
+    all.insert(all.end(), filtered.begin(), filtered.end());
+    all.insert(all.end(), {"kept_rows", "returned_rows", "kept_frame", "returned_frame"});
+    return all;
+  }();
   return names;
 }
 
 StreamConfig::StreamConfig(const std::vector<std::string>& names) {
-  for (const std::string& name : names) {
-    depths.push_back({name, 0});
-    kinds.push_back({name, std::nullopt});
-  }
+  for (const std::string& name : names) add(name);
+}
+
+void StreamConfig::add(const std::string& name) {
+  depths.push_back({name, 0});
+  kinds.push_back({name, std::nullopt});
 }
 
 std::uint32_t StreamConfig::resolve(const std::string& name, std::uint32_t needed) const {

@@ -38,6 +38,8 @@ struct StreamConfig {
   std::uint32_t synchroniser_stages = 2;  ///< of every asynchronous FIFO; 1 to 8; own choice
 
   explicit StreamConfig(const std::vector<std::string>& names = pipeline_stream_names());
+  /// One more stream, behind the others.
+  void add(const std::string& name);
 
   /// The depth to build `name` with. `needed` is the least depth at which it cannot stall the paths that fork
   /// and meet again around it; an automatic depth is at least that.

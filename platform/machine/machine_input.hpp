@@ -10,6 +10,7 @@
 
 #include "modules/map_codec.hpp"
 #include "platform/machine/frame.hpp"
+#include "platform/machine/stage_slot.hpp"
 #include "platform/registers/algorithm_parameters.hpp"
 #include "traces/trace_event.hpp"
 
@@ -21,7 +22,8 @@ struct MachineInput {
   int height = 0;  ///< px
   const EncodedMap* map = nullptr;
   std::int64_t frames = 1;
-  bool timing_only = false;  ///< no frame has images, so the memory need not hold any
+  StageReplacements replacements;  ///< what stands in the place of stages of the pipeline
+  bool timing_only = false;        ///< no frame has images, so the memory need not hold any
   /// Called, if there is one, with the socket of each memory port, to bind it: another memory in the place of
   /// the machine's own. A TLM-2.0 target that keeps to the base protocol and answers transport_dbg; it must
   /// hold data unless `timing_only`.

@@ -1,34 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <deque>
+#include <functional>
 #include <memory>
 #include <string>
 #include <systemc>
 #include <vector>
 
-#include "modules/census_stage.hpp"
-#include "modules/consistency_stage.hpp"
-#include "modules/gap_interpolation_stage.hpp"
 #include "modules/map_codec.hpp"
-#include "modules/map_decoder_stage.hpp"
-#include "modules/matching_stage.hpp"
-#include "modules/noise_reduction_stage.hpp"
 #include "modules/output_packing_stage.hpp"
-#include "modules/pixel_unpack_stage.hpp"
-#include "modules/rectification_stage.hpp"
-#include "modules/speckle_stage.hpp"
-#include "modules/store_stages.hpp"
-#include "modules/subpixel_stage.hpp"
-#include "modules/texture_stage.hpp"
-#include "modules/uniqueness_stage.hpp"
 #include "platform/config/machine_config.hpp"
 #include "platform/machine/matcher_store.hpp"
 #include "platform/machine/stage_info.hpp"
+#include "platform/machine/stage_slot.hpp"
 #include "platform/machine/tile_plan.hpp"
+#include "platform/machine/wiring.hpp"
 #include "platform/registers/algorithm_parameters.hpp"
-#include "tlm/dma.hpp"
-#include "tlm/unpacker.hpp"
+#include "tlm/stream.hpp"
 
 namespace parallax {
 
@@ -36,9 +24,10 @@ namespace parallax {
 /// the streams between them. This is the one place that knows which stage follows which.
 class Pipeline final : public sc_core::sc_module {
  public:
-  /// `map`: cut for the tiles (cut_map). `context` has the size of a tile.
+  /// `map`: cut for the tiles (cut_map). `context` has the size of a tile. `replacements`: what stands in the
+  /// place of stages, but for output_packing; std::logic_error where it does not fit.
   Pipeline(const sc_core::sc_module_name& name, const MachineConfig& config, const EncodedMap& map,
-           const TilePlan& tiles, const StageContext& context);
+           const TilePlan& tiles, const StageContext& context, const StageReplacements& replacements = {});
 
   /// Binds the ports that bring the left image, the right image and the map in bursts, and the one that takes
   /// the results.
@@ -55,46 +44,39 @@ class Pipeline final : public sc_core::sc_module {
   /// For the next frame with values; each is told, in order.
   void configure(const AlgorithmParameters& parameters);
 
-  OutputPackingStage& output() { return output_packing_; }
-  /// The stage whose tokens are the final disparities.
-  StageInfo last_filter() const;
-  const Stage& matcher() const { return matching_; }
+  OutputPackingStage& output() { return *output_packing_; }
+  /// The stage whose tokens are the final disparities (if that is a block in kernel time, the last one
+  /// before).
+  const StageInfo& last_filter() const { return last_filter_; }
+  /// Whether `stage` stands in the slot of the matcher.
+  bool is_matcher(const Stage& stage) const;
+  /// Upstream to downstream. Blocks in kernel time that replace stages are not among them.
   std::vector<StageInfo> stages() const;
 
  private:
-  struct Store {  // between the matcher and a pair of memory ports
-    Store(const std::string& what, const StoreLayout& layout, bool backwards, const StageContext& context,
-          const FifoConfig& fifo);
-    StorePackStage pack;
-    StoreUnpackStage unpack;
+  struct Store {  // streams between the matcher's slots and a pair of memory ports
+    Store(const std::string& what, const StageContext& context, const FifoConfig& fifo);
     Stream<std::uint8_t> kept;
     Stream<std::uint8_t> returned;
   };
 
-  template <class T>
-  Stream<T>& stream(const char* name, std::int64_t width_bits, std::uint64_t needed_depth = 0);
+  void place_inputs(const EncodedMap& map, const TilePlan& tiles);
+  void place_matching();
+  void place_filters(const TilePlan& tiles);
+  void connect_inputs();
+  void connect_matching();
+  void connect_filters();
+  std::unique_ptr<Store> place_store(const std::string& what, const StoreLayout& layout, bool backwards);
 
   const MachineConfig& config_;
   const StageContext context_;
   const std::size_t tiles_;
   const MatcherStore store_;
   AlgorithmParameters parameters_;  // of the last frame that was told
-
-  PixelUnpackStage unpack_left_;
-  PixelUnpackStage unpack_right_;
-  Unpacker<std::uint8_t> unpack_map_;
-  MapDecoderStage map_decoder_;
-  RectificationStage rectification_;
-  CensusStage census_;
-  MatchingStage matching_;
-  SubpixelStage subpixel_;
-  UniquenessStage uniqueness_;
-  ConsistencyStage consistency_;
-  TextureStage texture_;
-  SpeckleStage speckle_;
-  GapInterpolationStage gap_interpolation_;
-  NoiseReductionStage noise_reduction_;
-  OutputPackingStage output_packing_;
+  Wiring wiring_;
+  StageInfo last_filter_{};
+  OutputPackingStage* output_packing_ = nullptr;
+  std::vector<std::function<void(const MachineConfig* next)>> follow_;  // run-time parameters
 
   Stream<std::uint8_t> left_bursts_;
   Stream<std::uint8_t> right_bursts_;
@@ -102,7 +84,6 @@ class Pipeline final : public sc_core::sc_module {
   Stream<std::uint8_t> output_bursts_;
   std::unique_ptr<Store> rows_;   // if it keeps rows
   std::unique_ptr<Store> frame_;  // if it keeps a frame
-  std::vector<std::unique_ptr<StreamBase>> streams_;
 };
 
 }  // namespace parallax

@@ -11,8 +11,8 @@ namespace parallax {
 
 /// A stage with what it declares, for reports.
 struct StageInfo {
-  const Stage* stage;
-  Bits storage;            ///< line buffers and the like, beside the FIFOs
+  const Stage* stage = nullptr;
+  Bits storage{0};         ///< line buffers and the like, beside the FIFOs
   std::size_t passes = 1;  ///< times that the stage goes through its schedule for one frame
   bool enabled = true;     ///< false: a filter that is off, so that tokens pass it as they are
 

@@ -88,7 +88,7 @@ std::vector<Part> StereoCore::parts() const {
     const auto add = [&part](std::initializer_list<Relief> reliefs) {
       part.relieved_by.insert(part.relieved_by.end(), reliefs);
     };
-    if (info.stage == &pipeline_.matcher()) add({Relief::kMatchingInterval});
+    if (pipeline_.is_matcher(*info.stage)) add({Relief::kMatchingInterval});
     const auto is_at = [&info](const MemoryPort* port) {
       return port->stage && port->stage->stage == info.stage;
     };

@@ -52,7 +52,7 @@ void add_core(EnergyActivity& activity, const Machine& machine) {
   double bits = 0;
   for (const StageInfo& info : machine.pipeline().stages()) {
     const StageBits stage = stage_bits(info);
-    if (info.stage != &machine.pipeline().matcher() && info.enabled)
+    if (!machine.pipeline().is_matcher(*info.stage) && info.enabled)
       activity.stage_bits += activity.frames * stage.read;
     bits += stage.fifo + 2 * static_cast<double>(info.storage.count()) * rows;
   }

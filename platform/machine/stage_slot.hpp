@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <systemc>
+#include <type_traits>
+#include <utility>
+
+#include "modules/raster_schedule.hpp"
+#include "tlm/stage.hpp"
+
+namespace parallax {
+
+struct MachineConfig;
+
+/// What stands in a slot of the pipeline, between its input and its output streams: a stage, or a block in
+/// kernel time. Its stream ports are found by their names, which are those of the stage that usually stands
+/// there ("in_left", say), and take the same tokens.
+struct SlotModule {
+  std::unique_ptr<sc_core::sc_module> module;
+  const Stage* stage = nullptr;  ///< the same, if it is one; else reports leave it out
+  std::uint64_t look_ahead = 0;  ///< elements (pixels) that it has read beyond the one that it writes
+  std::uint64_t latency = 0;     ///< cycles of the core's clock from reading to writing
+  Bits storage{0};               ///< line buffers and the like
+  /// Called, if there is one, for the next frame with values: its configuration, or nullptr: as before.
+  std::function<void(const MachineConfig* next)> follow{};
+};
+
+/// A stage with what it says of itself.
+template <class S>
+SlotModule slot_module(std::unique_ptr<S> stage);
+
+/// Makes what stands in a slot, under the slot's name.
+using StageFactory = std::function<SlotModule(const std::string& name, const StageContext& context)>;
+
+/// What takes the place of the usual stages, by the names of their slots (as in reports: "census").
+using StageReplacements = std::map<std::string, StageFactory>;
+
+namespace detail {
+
+template <class S, class = void>
+struct HasLookAhead : std::false_type {};
+template <class S>
+struct HasLookAhead<S, std::void_t<decltype(std::declval<const S&>().look_ahead())>> : std::true_type {};
+
+template <class S, class = void>
+struct HasStorage : std::false_type {};
+template <class S>
+struct HasStorage<S, std::void_t<decltype(std::declval<const S&>().storage())>> : std::true_type {};
+
+}  // namespace detail
+
+template <class S>
+SlotModule slot_module(std::unique_ptr<S> stage) {
+  SlotModule slot;
+  slot.stage = stage.get();
+  slot.latency = stage->latency();
+  if constexpr (detail::HasLookAhead<S>::value) slot.look_ahead = stage->look_ahead();
+  if constexpr (detail::HasStorage<S>::value) slot.storage = stage->storage();
+  slot.module = std::move(stage);
+  return slot;
+}
+
+}  // namespace parallax

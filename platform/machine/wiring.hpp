@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <systemc>
+#include <utility>
+#include <vector>
+
+#include "modules/token_format.hpp"
+#include "platform/config/stream_config.hpp"
+#include "platform/machine/stage_slot.hpp"
+#include "tlm/fork_depths.hpp"
+#include "tlm/stream.hpp"
+
+namespace parallax {
+
+/// A port of what stands in a slot, by their names.
+struct PortName {
+  std::string slot;
+  std::string port;
+};
+
+/// Stages and the streams between them: slots are filled, ports are connected, and when all is known the
+/// streams are made, as deep as the graph needs them. All of it lives in the module under construction.
+class Wiring {
+ public:
+  /// Facts of a slot that do not depend on what stands there.
+  struct Facts {
+    std::size_t passes = 1;   ///< times that it goes through its schedule for one frame
+    bool enabled = true;      ///< false: tokens pass it as they are
+    std::uint64_t group = 0;  ///< tokens of a pixel, if it reads or writes them in groups; else 0
+    Bits storage{0};          ///< beside what the module itself says
+  };
+  struct Slot {
+    std::string name;
+    Facts facts;
+    SlotModule content;
+  };
+  enum class Reads {
+    kAhead,  ///< the reader looks ahead on this stream
+    kLate,   ///< it reads a token with the one that it writes
+  };
+
+  /// `streams` must outlive the wiring. std::logic_error, here and below, for what does not fit together.
+  Wiring(const StreamConfig& streams, const StageContext& context, StageReplacements replacements);
+
+  /// Fills the next slot (upstream to downstream): with its replacement, or by `usual`.
+  Slot& place(const std::string& name, const Facts& facts, const StageFactory& usual);
+  /// Fills it with its replacement, or a stage made of its name and `arguments`; returns that, or nullptr.
+  template <class S, class... Arguments>
+  S* place(const std::string& name, const Facts& facts, Arguments&&... arguments) {
+    S* made = nullptr;
+    place(name, facts, [&](const std::string& own, const StageContext&) {
+      auto stage = std::make_unique<S>(own.c_str(), std::forward<Arguments>(arguments)...);
+      made = stage.get();
+      return slot_module(std::move(stage));
+    });
+    return made;
+  }
+
+  /// A stream of tokens that look like `format`; `groups`: a pixel is as many of them as its slots say. Depth
+  /// and kind are configured under its name.
+  template <class T>
+  void connect(const std::string& stream, const TokenFormat& format, const PortName& from, const PortName& to,
+               Reads reads = Reads::kAhead, bool groups = false);
+  /// One end of a stream that is there already: at a port of the memory.
+  template <class T>
+  void attach(Stream<T>& stream, const PortName& port) {
+    bind<StreamOut<T>, StreamIn<T>>(stream, port);
+  }
+
+  /// Makes and binds the streams. Nothing can be placed or connected behind this.
+  void build();
+
+  const std::vector<std::unique_ptr<Slot>>& slots() const { return slots_; }
+
+ private:
+  struct Wire {
+    std::string name;
+    Bits width;
+    std::size_t from, to;  // slots
+    Reads reads;
+    bool groups;
+    std::function<std::unique_ptr<StreamBase>(const char* name, const FifoConfig& fifo)> make;  // and bind
+  };
+
+  std::size_t index(const std::string& slot) const;
+  sc_core::sc_object& port(const PortName& name) const;
+  [[noreturn]] static void misfit(const PortName& name);
+  template <class Out, class In, class S>
+  void bind(S& stream, const PortName& name) const {
+    sc_core::sc_object& found = port(name);
+    if (auto* out = dynamic_cast<Out*>(&found)) {
+      (*out)(stream);
+    } else if (auto* in = dynamic_cast<In*>(&found)) {
+      (*in)(stream);
+    } else {
+      misfit(name);
+    }
+  }
+
+  const StreamConfig& streams_config_;
+  const StageContext context_;
+  const StageReplacements replacements_;
+  std::vector<std::unique_ptr<Slot>> slots_;
+  std::vector<Wire> wires_;
+  std::vector<std::unique_ptr<StreamBase>> streams_;
+};
+
+template <class T>
+void Wiring::connect(const std::string& stream, const TokenFormat& format, const PortName& from,
+                     const PortName& to, Reads reads, bool groups) {
+  const auto make = [this, from, to](const char* name, const FifoConfig& fifo) {
+    auto made = std::make_unique<Stream<T>>(name, context_.dataflow, context_.clock, context_.clock, fifo);
+    attach(*made, from);
+    attach(*made, to);
+    return made;
+  };
+  wires_.push_back({stream, format.width(), index(from.slot), index(to.slot), reads, groups, make});
+}
+
+}  // namespace parallax

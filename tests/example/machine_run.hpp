@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+// A small machine that only its pipeline limits, with images: what comes out, and when.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "tests/timing/in_child.hpp"
+#include "tests/timing/machine_bench.hpp"
+
+namespace parallax::test {
+
+constexpr int kWidth = 96;
+constexpr int kHeight = 48;
+constexpr std::int64_t kFrames = 4;
+
+/// Bars of noise, shifted to the left.
+inline SensorImage shifted_image(std::size_t shift) {
+  std::mt19937 random(7);
+  auto pixels = std::make_shared<std::vector<Gray>>();
+  std::vector<Gray> line(kWidth + 64);
+  for (int y = 0; y < kHeight; ++y) {
+    if (y % 3 == 0) {
+      for (Gray& pixel : line) pixel = static_cast<Gray>(100 + random() % (y < 20 ? 6 : 120));
+    }
+    for (std::size_t x = 0; x < kWidth; ++x) {
+      pixels->push_back(static_cast<Gray>(line[x + shift] + random() % 4));
+    }
+  }
+  return pixels;
+}
+
+/// What a run gave: a fault's text, or the disparities of the last frame and dates in cycles of the core.
+struct MachineRun {
+  std::string fault;
+  std::vector<Disparity> disparities;
+  std::int64_t period = 0;                         ///< from the last but one frame to the last one
+  std::int64_t first = 0;                          ///< from the first frame's start to its first disparity
+  std::int64_t left_texture = 0, left_output = 0;  ///< depths
+};
+
+inline MachineConfig small_machine(const std::vector<std::string>& assignments = {}) {
+  std::vector<std::string> all{"rectification.window=9"};
+  all.insert(all.end(), assignments.begin(), assignments.end());
+  return pipeline_alone(preset(all));
+}
+
+inline MachineRun run_machine(const MachineConfig& config, const StageReplacements& replacements = {}) {
+  const std::string text = in_child([&] {
+    const EncodedMap map = encode(lens_map(kWidth, kHeight, config.rectification.range));
+    MachineInput input;
+    input.width = kWidth;
+    input.height = kHeight;
+    input.map = &map;
+    // More than are looked at: the cameras go on without images when all are taken, and a block in kernel
+    // time that reads values would miss them.
+    input.frames = kFrames + 4;
+    input.replacements = replacements;
+    input.expose = [](std::int64_t) { return StereoFrame{shifted_image(12), shifted_image(20)}; };
+    std::vector<Disparity> last;
+    input.deliver = [&last](const FrameResult& result) {
+      if (result.index + 1 != kFrames) return;
+      last = result.disparities;
+      sc_core::sc_stop();
+    };
+    const Machine machine("machine", config, input);
+    sc_core::sc_start();
+    if (last.empty()) return "stuck:\n" + describe(machine.dataflow().waits());
+    const auto cycles = [&](sc_core::sc_time begin, sc_core::sc_time end) {
+      return std::llround((end - begin).to_seconds() * static_cast<double>(config.clocks.core_hz));
+    };
+    std::ostringstream out;
+    const auto& times = machine.times();
+    out << cycles(times[kFrames - 2].results_in_memory, times[kFrames - 1].results_in_memory) << " "
+        << cycles(times[0].core_started, times[0].first_disparity);
+    for (const char* name : {"left_texture", "left_output"}) {
+      for (const StreamBase* stream : machine.dataflow().streams()) {
+        if (stream->basename() == std::string(name)) out << " " << stream->depth();
+      }
+    }
+    for (const Disparity& d : last) out << " " << d.value << " " << static_cast<int>(d.cause);
+    return out.str();
+  });
+  MachineRun run;
+  std::istringstream in(text);
+  if (!(in >> run.period >> run.first >> run.left_texture >> run.left_output)) {
+    run.fault = text;
+    return run;
+  }
+  for (int value, cause; in >> value >> cause;) {
+    run.disparities.push_back({static_cast<std::uint16_t>(value), static_cast<Cause>(cause)});
+  }
+  return run;
+}
+
+/// What a filter's kernel makes of an image.
+template <class Kernel, class Config>
+std::vector<Disparity> filtered(const Config& config, const std::vector<Disparity>& image) {
+  Kernel kernel(config, kWidth, kHeight);
+  std::vector<Disparity> out;
+  for (int y = 0; y < kHeight; ++y) {
+    kernel.push(image.data() + y * kWidth,
+                [&](const Disparity* row) { out.insert(out.end(), row, row + kWidth); });
+  }
+  return out;
+}
+
+}  // namespace parallax::test

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// The machine with a filter of one's own, added as the guide says: its files and one line.
+#include <gtest/gtest.h>
+
+#include "platform/config/filter_of.hpp"
+#include "tests/example/fill_from_below.hpp"
+#include "tests/example/fill_from_left_keys.hpp"
+#include "tests/example/machine_run.hpp"
+
+namespace parallax::test {
+namespace {
+
+TEST(OwnFilter, RunsInTheMachineAtFullRate) {
+  const MachineConfig config = small_machine();
+  MachineConfig with_filter = config;
+  with_filter.add(filter<FillFromLeft, FillFromLeftConfig>("fill_from_left"));
+  const MachineRun without = run_machine(config);
+  const MachineRun with = run_machine(with_filter);
+  ASSERT_EQ(without.fault, "");
+  ASSERT_EQ(with.fault, "");
+  const auto expected = filtered<FillFromLeft>(FillFromLeftConfig{}, without.disparities);
+  EXPECT_EQ(with.disparities, expected);
+  EXPECT_NE(with.disparities, without.disparities);
+  EXPECT_EQ(with.period, without.period);
+  EXPECT_EQ(with.first, without.first + 1 + 1);  // its latency, and the FIFO before it
+  EXPECT_EQ(with.left_output, without.left_output + 1 + 2);
+}
+
+TEST(OwnFilter, WithALookAheadOfThreeRowsRunsAtFullRateToo) {
+  const MachineConfig config = small_machine();
+  MachineConfig with_filter = config;
+  with_filter.add(filter<FillFromBelow, FillFromBelowConfig>("fill_from_below"));
+  const MachineRun without = run_machine(config);
+  const MachineRun with = run_machine(with_filter);
+  ASSERT_EQ(without.fault, "");
+  ASSERT_EQ(with.fault, "");
+  EXPECT_EQ(with.disparities, filtered<FillFromBelow>(FillFromBelowConfig{}, without.disparities));
+  EXPECT_EQ(with.period, without.period);
+  EXPECT_EQ(with.left_output, without.left_output + 3 * kWidth + 1 + 2);
+}
+
+TEST(OwnFilter, HasKeysForItsFunctionItsTimeAndItsStream) {
+  MachineConfig config;
+  config.add(filter<FillFromLeft, FillFromLeftConfig>("fill_from_left", {7}, {1, 5, 0, 0}));
+  Schema schema;
+  describe(schema, config);
+  const auto value = [&](const char* key) { return std::get<std::int64_t>(schema.find(key)->get()); };
+  EXPECT_EQ(value("fill_from_left.reach"), 7);
+  EXPECT_EQ(value("fill_from_left.latency"), 5);
+  EXPECT_EQ(value("streams.fill_from_left_out.depth"), 0);
+}
+
+TEST(OwnFilter, IsCopiedWithTheConfigurationThatItIsAPartOf) {
+  MachineConfig config;
+  config.add(filter<FillFromLeft, FillFromLeftConfig>("fill_from_left"));
+  MachineConfig copy = config;
+  copy.filters.all().back()->timing(copy).latency = 9;
+  EXPECT_EQ(config.filters.all().back()->timing(config).latency, 1u);
+}
+
+}  // namespace
+}  // namespace parallax::test

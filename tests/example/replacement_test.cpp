@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// Other blocks in the place of a stage, between the same streams.
+#include <gtest/gtest.h>
+
+#include "tests/example/late_census.hpp"
+#include "tests/example/machine_run.hpp"
+
+namespace parallax::test {
+namespace {
+
+TEST(Replacement, AVariantOfAStageGivesTheSameValuesLater) {
+  const MachineConfig config = small_machine();
+  const auto latency = config.timing.census.latency + 50;
+  const MachineRun usual = run_machine(config);
+  const MachineRun other = run_machine(config, {{"census", [&](const std::string& name, const auto& context) {
+                                                   return slot_module(std::make_unique<LateCensus>(
+                                                       name.c_str(), config.census, latency, context));
+                                                 }}});
+  ASSERT_EQ(usual.fault, "");
+  ASSERT_EQ(other.fault, "");
+  EXPECT_EQ(other.disparities, usual.disparities);
+  EXPECT_EQ(other.period, usual.period);
+  EXPECT_EQ(other.first, usual.first + 50);
+  EXPECT_EQ(other.left_texture, usual.left_texture + 50);
+  EXPECT_EQ(other.left_output, usual.left_output + 50);
+}
+
+TEST(Replacement, ABlockInKernelTimeGivesTheSameValues) {
+  const MachineConfig config = small_machine();
+  const StageFactory clocked = [&](const std::string& name, const StageContext& context) {
+    auto block = std::make_unique<ClockedCensus>(name.c_str(), config.census, context);
+    SlotModule slot;
+    slot.look_ahead = block->look_ahead();
+    slot.module = std::move(block);
+    return slot;
+  };
+  const MachineRun usual = run_machine(config);
+  const MachineRun other = run_machine(config, {{"census", clocked}});
+  ASSERT_EQ(usual.fault, "");
+  ASSERT_EQ(other.fault, "");
+  EXPECT_EQ(other.disparities, usual.disparities);
+  // It looks almost a row further ahead, which is refilled once a frame.
+  EXPECT_LE(other.period, usual.period + kWidth);
+}
+
+TEST(Replacement, WhatHasNoSlotOrNotItsPortsIsReported) {
+  const MachineConfig config = small_machine();
+  const StageFactory census = [&](const std::string& name, const StageContext& context) {
+    return slot_module(std::make_unique<LateCensus>(name.c_str(), config.census, 4, context));
+  };
+  EXPECT_EQ(run_machine(config, {{"censor", census}}).fault, "the pipeline has no slot censor");
+  EXPECT_EQ(run_machine(config, {{"subpixel", census}}).fault,
+            "what stands in the slot subpixel has no port in_costs for the tokens there");
+}
+
+}  // namespace
+}  // namespace parallax::test
