@@ -18,12 +18,14 @@ MatchingStage::MatchingStage(const sc_core::sc_module_name& name, const Matching
             if (const auto change = changes_.at_row()) {
               kernel_.emplace(*change, context.width, context.height, code_bits);
             }
-            kernel_->push(left, right,
-                          [this, length](const Cost* costs) { out_costs.send_row(costs, length); });
+            kernel_->push(
+                left, right, [this, length](const Cost* costs) { out_costs.send_row(costs, length); },
+                keeper_);
           }),
       look_ahead_(look_ahead_pixels(context, kernel_->look_ahead_rows(), kernel_->look_ahead_pixels())),
       storage_(kernel_->storage_bits()),
-      store_(kernel_->store()) {
+      store_(kernel_->store()),
+      frame_kept_(static_cast<std::size_t>(context.height)) {
   const auto width = static_cast<std::size_t>(context.width);
   RasterSchedule raster;
   raster.beats = static_cast<std::uint32_t>(config.iterations);
@@ -40,18 +42,40 @@ MatchingStage::MatchingStage(const sc_core::sc_module_name& name, const Matching
     if (store_.second_pass_row > 0) raster.second_pass = rows;
     in = static_cast<PortMask>(in << 1);
     out = static_cast<PortMask>(out << 1);
+    keep_rows();
   }
   if (store_.frame > 0) {
     in_frame = std::make_unique<StreamIn<std::uint8_t>>("in_frame");
     out_frame = std::make_unique<StreamOut<std::uint8_t>>("out_frame");
     raster.reads_late.first = in;
     raster.writes_early.last = out;
+    keep_frame();
   }
   raster.look_ahead = look_ahead_;
   raster.timing = timing;
   set_schedule(make_schedule(context, raster));
   in_left.on_row(width, [this](const CensusCode* row, std::size_t) { codes_.push_a(row); });
   in_right.on_row(width, [this](const CensusCode* row, std::size_t) { codes_.push_b(row); });
+}
+
+void MatchingStage::keep_rows() {
+  keeper_.row = [this](const std::uint8_t* records, std::size_t bytes) {
+    rows_kept_.leave(records, bytes);
+    out_rows->send_row(records, bytes);
+  };
+  in_rows->on_row(0, [this](const std::uint8_t* records, std::size_t bytes) {
+    if (!rows_kept_.come_back(records, bytes)) SC_REPORT_ERROR("/parallax/matching/kept", in_rows->name());
+  });
+}
+
+void MatchingStage::keep_frame() {
+  keeper_.frame = [this](const std::uint8_t* records, std::size_t bytes) {
+    frame_kept_.leave(records, bytes);
+    out_frame->send_row(records, bytes);
+  };
+  in_frame->on_row(0, [this](const std::uint8_t* records, std::size_t bytes) {
+    if (!frame_kept_.come_back(records, bytes)) SC_REPORT_ERROR("/parallax/matching/kept", in_frame->name());
+  });
 }
 
 }  // namespace parallax

@@ -7,6 +7,7 @@
 #include <systemc>
 
 #include "modules/frame_changes.hpp"
+#include "modules/kept_rows.hpp"
 #include "modules/matching.hpp"
 #include "modules/raster_schedule.hpp"
 #include "modules/row_join.hpp"
@@ -21,8 +22,8 @@ namespace parallax {
 ///
 /// What the matcher keeps outside (MatchingStore) leaves and comes back through ports of its own, a token a
 /// pixel: rows out with a pixel's last iteration, and back with the first one of the pixel below; the frame
-/// out in the first pass, and back, last pixel first, in the second. These tokens have dates and no values:
-/// the kernel holds the values.
+/// out in the first pass, and back, last pixel first, in the second. The kernel goes on with the values that
+/// it holds; what comes back must be the same: SC_REPORT_ERROR /parallax/matching/kept when it is not.
 class MatchingStage final : public Stage {
  public:
   StreamIn<CensusCode> in_left{"in_left"};
@@ -43,12 +44,18 @@ class MatchingStage final : public Stage {
   const MatchingStore& store() const { return store_; }
 
  private:
+  void keep_rows();
+  void keep_frame();
+
   std::optional<Matching> kernel_;
   FrameChanges<MatchingConfig> changes_;
   RowJoin<CensusCode, CensusCode> codes_;
   std::uint64_t look_ahead_;
   Bits storage_;
   MatchingStore store_;
+  KeptRows rows_kept_;
+  KeptRows frame_kept_;
+  MatchingKeeper keeper_;
 };
 
 }  // namespace parallax

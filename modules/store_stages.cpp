@@ -92,12 +92,60 @@ Schedule rows(const StoreLayout& layout, Row row) {
   return schedule;
 }
 
+// Makes rows of the bursts that come in, pass by pass.
+class RowsOfBursts {
+ public:
+  RowsOfBursts(const StoreLayout& layout, bool backwards) : layout_(layout), backwards_(backwards) {
+    skip_empty();
+  }
+
+  template <class Send>
+  void take(const std::uint8_t* burst, std::size_t size, const Send& send) {
+    const StoreLayout::Pass& pass = layout_.passes[pass_];
+    const std::size_t row_bytes = layout_.row_bytes(pass);
+    bytes_.resize(row_bytes);
+    const std::size_t at = backwards_ ? row_bytes - filled_ - size : filled_;
+    std::copy(burst, burst + size, bytes_.begin() + static_cast<std::ptrdiff_t>(at));
+    filled_ += size;
+    if (filled_ < row_bytes) return;
+    send(bytes_.data(), layout_.width * pass.record_bytes);
+    filled_ = 0;
+    ++row_;
+    skip_empty();
+  }
+
+ private:
+  void skip_empty() {
+    const auto over = [this] {
+      const StoreLayout::Pass& pass = layout_.passes[pass_];
+      return pass.record_bytes == 0 || row_ == pass.rows;
+    };
+    for (std::size_t passes = layout_.passes.size(); passes > 0 && over(); --passes) {
+      pass_ = (pass_ + 1) % layout_.passes.size();
+      row_ = 0;
+    }
+  }
+
+  StoreLayout layout_;
+  bool backwards_;
+  std::size_t pass_ = 0;
+  std::uint64_t row_ = 0;            // of it
+  std::vector<std::uint8_t> bytes_;  // of that, as they lie in memory
+  std::size_t filled_ = 0;           // of these
+};
+
 }  // namespace
 
 StorePackStage::StorePackStage(const sc_core::sc_module_name& name, const StoreLayout& layout,
                                const ClockDomain& clock, Dataflow& dataflow)
     : Stage(name, clock, dataflow, 0) {
   set_schedule(rows(layout, [&](const StoreLayout::Pass& pass) { return pack_row(layout, pass); }));
+  in_records.on_row(0, [this, burst = static_cast<std::size_t>(layout.burst.count())](const std::uint8_t* row,
+                                                                                      std::size_t size) {
+    std::vector<std::uint8_t> padded(row, row + size);
+    padded.resize((size + burst - 1) / burst * burst);
+    out_bursts.send_row(padded.data(), padded.size());
+  });
 }
 
 StoreUnpackStage::StoreUnpackStage(const sc_core::sc_module_name& name, const StoreLayout& layout,
@@ -105,6 +153,11 @@ StoreUnpackStage::StoreUnpackStage(const sc_core::sc_module_name& name, const St
     : Stage(name, clock, dataflow, 0) {
   set_schedule(
       rows(layout, [&](const StoreLayout::Pass& pass) { return unpack_row(layout, pass, backwards); }));
+  in_bursts.on_row(
+      0, [this, all = RowsOfBursts(layout, backwards)](const std::uint8_t* burst, std::size_t size) mutable {
+        all.take(burst, size,
+                 [this](const std::uint8_t* row, std::size_t bytes) { out_records.send_row(row, bytes); });
+      });
 }
 
 }  // namespace parallax

@@ -31,7 +31,7 @@ struct StoreLayout {
 };
 
 /// Records in, bursts out: a word a cycle, and no more than a record a cycle. A burst goes out with its last
-/// word. Combinational; the burst lies in a register. Dates only: the tokens have no values.
+/// word. Combinational; the burst lies in a register. Values come in by rows; the padding is zeros.
 class StorePackStage final : public Stage {
  public:
   StreamIn<std::uint8_t> in_records{"in_records"};
@@ -42,7 +42,8 @@ class StorePackStage final : public Stage {
 };
 
 /// Bursts in, records out, likewise: a burst is read with its first word. `backwards`: rows come from their
-/// end, the padding first.
+/// end, the padding first. Values come in by bursts and go out by rows, pixels in the order in which they
+/// were packed.
 class StoreUnpackStage final : public Stage {
  public:
   StreamIn<std::uint8_t> in_bursts{"in_bursts"};

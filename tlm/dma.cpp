@@ -183,7 +183,9 @@ void DmaReader::send_rows(std::uint64_t until) {
   for (; row_ < job().row_bytes.size() && row_start_ < until; row_start_ += job().row_bytes[row_++]) {
     if (!job().values) continue;
     std::vector<std::uint8_t> bytes(job().row_bytes[row_]);
-    master.read_now(job().row_address(row_, row_start_), bytes.data(), bytes.size());
+    const std::uint64_t address =
+        job().downwards ? memory_address() : job().row_address(row_, row_start_);  // of a burst or a row
+    master.read_now(address, bytes.data(), bytes.size());
     // In the engine, not here: it goes through all the kernels before any date of the row does.
     dataflow().post(
         [this, row_values = std::move(bytes)] { out_bursts.send_row(row_values.data(), row_values.size()); });

@@ -48,8 +48,8 @@ struct DmaJob {
     std::function<void()> reached;  ///< called when the bursts that hold these are answered
   };
   std::vector<Mark> marks{};  ///< ascending
-  bool downwards =
-      false;  ///< the last burst first; of one piece that is a whole number of bursts, without values
+  bool downwards = false;     ///< the last burst first; of one piece that is a whole number of bursts, each a
+                              ///< row if it has values
   std::shared_ptr<TransferProgress> progress{};  ///< told of each burst that is answered
   /// For a reader that must not overtake a writer: bytes before `last_byte` of this job are requested when
   /// `needed(last_byte)` bursts of `behind` have been answered; with values, all rows that the burst touches

@@ -97,7 +97,7 @@ void StereoCore::start(const FrameCommand& command) {
   if (hooks_.has_values(frame)) pipeline_.configure(command.parameters);
   start_input(frame, command);
   start_output(frame, command);
-  start_store(command);
+  start_store(frame, command);
 }
 
 void StereoCore::start_input(std::int64_t frame, const FrameCommand& command) {
@@ -165,14 +165,17 @@ void StereoCore::written(std::int64_t frame) {
 }
 
 // The engines of a buffer move the same bursts; what is written must be answered for before it is read.
-void StereoCore::start_store(const FrameCommand& command) {
+void StereoCore::start_store(std::int64_t frame, const FrameCommand& command) {
   const MatcherStore& store = pipeline_.store();
-  const auto move = [](BufferEngines& ports, std::uint64_t address, std::uint64_t rows,
-                       std::uint64_t row_bytes, Bytes burst, bool frame) {
+  const auto move = [values = hooks_.has_values(frame)](BufferEngines& ports, std::uint64_t address,
+                                                        std::uint64_t rows, std::uint64_t row_bytes,
+                                                        Bytes burst, bool backwards) {
     DmaJob transfer;
     transfer.address = address;
-    transfer.row_bytes.assign(rows, static_cast<std::uint32_t>(row_bytes));
-    transfer.values = false;
+    transfer.values = values;
+    // Values come back burst by burst, each as soon as it is there.
+    const std::uint64_t piece = values ? static_cast<std::uint64_t>(burst.count()) : row_bytes;
+    transfer.row_bytes.assign(rows * row_bytes / piece, static_cast<std::uint32_t>(piece));
     transfer.progress = ports.progress;
     ports.write.start(transfer);
     transfer.progress = nullptr;
@@ -180,9 +183,9 @@ void StereoCore::start_store(const FrameCommand& command) {
     const std::uint64_t before = ports.bursts;
     ports.bursts += burst_count(rows * row_bytes, burst);
     // The frame comes back last pixel first; a row from its begin.
-    transfer.downwards = frame;
-    transfer.needed = [before, burst, all = ports.bursts, frame](std::uint64_t last_byte) {
-      return frame ? all : before + burst_count(last_byte, burst);
+    transfer.downwards = backwards;
+    transfer.needed = [before, burst, all = ports.bursts, backwards](std::uint64_t last_byte) {
+      return backwards ? all : before + burst_count(last_byte, burst);
     };
     ports.read.start(transfer);
   };

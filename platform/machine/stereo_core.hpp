@@ -87,7 +87,7 @@ class StereoCore final : public sc_core::sc_module {
   void start(const FrameCommand& command);
   void start_input(std::int64_t frame, const FrameCommand& command);
   void start_output(std::int64_t frame, const FrameCommand& command);
-  void start_store(const FrameCommand& command);
+  void start_store(std::int64_t frame, const FrameCommand& command);
   void written(std::int64_t frame);
   DmaJob output_job(const Tile& tile) const;
 

@@ -13,6 +13,7 @@
 #include "tests/timing/date_log.hpp"
 #include "tests/timing/graph.hpp"
 #include "tests/timing/graph_thread.hpp"
+#include "tlm/dma.hpp"
 
 namespace parallax::test {
 
