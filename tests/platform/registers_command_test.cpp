@@ -5,7 +5,7 @@
 
 #include "platform/registers/register_map.hpp"
 #include "tests/cli/program.hpp"
-#include "tests/cli/readme.hpp"
+#include "tests/cli/markdown.hpp"
 #include "tests/paths.hpp"
 #include "tests/platform/temporary_folder.hpp"
 

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The README as data: its fenced blocks and its tables.
+// A page of documentation as data: its fenced blocks, headings and links.
 #pragma once
 
+#include <cctype>
 #include <cmath>
 #include <fstream>
 #include <regex>
+#include <set>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -108,7 +110,7 @@ inline Shape shape_of(const std::string& line) {
   return shape;
 }
 
-/// Whether a line of the README shows what was printed: the same text, numbers within 10 %. A line that ends
+/// Whether a line of a page shows what was printed: the same text, numbers within 10 %. A line that ends
 /// in " ..." shows the beginning only.
 inline bool shows(const std::string& line, const std::string& printed) {
   const std::string more = " ...";
@@ -123,6 +125,46 @@ inline bool shows(const std::string& line, const std::string& printed) {
   return true;
 }
 
+/// The lines outside of fenced blocks.
+inline std::vector<std::string> prose_of(const std::string& markdown) {
+  std::vector<std::string> prose;
+  bool inside = false;
+  for (const std::string& line : lines_of(markdown)) {
+    const bool fence = line.rfind("```", 0) == 0;
+    if (!fence && !inside) prose.push_back(line);
+    if (fence) inside = !inside;
+  }
+  return prose;
+}
+
+/// What "page.md#..." leads to: each heading in small letters, without punctuation, with hyphens for blanks.
+inline std::set<std::string> anchors_of(const std::string& markdown) {
+  std::set<std::string> anchors;
+  for (const std::string& line : prose_of(markdown)) {
+    const std::size_t begin = line.find_first_not_of('#');
+    if (begin == 0 || begin == std::string::npos || line[begin] != ' ') continue;
+    std::string anchor;
+    for (const char c : line.substr(begin + 1)) {
+      const auto letter = static_cast<unsigned char>(c);
+      if (std::isalnum(letter) != 0 || c == '-' || c == '_')
+        anchor += static_cast<char>(std::tolower(letter));
+      if (c == ' ') anchor += '-';
+    }
+    anchors.insert(anchor);
+  }
+  return anchors;
+}
+
+/// Where its links lead: "page.md", "page.md#heading", "#heading", "https://...".
+inline std::vector<std::string> links_of(const std::string& markdown) {
+  static const std::regex link("\\]\\(([^)]+)\\)");
+  std::vector<std::string> links;
+  for (const std::string& line : prose_of(markdown)) {
+    for (std::sregex_iterator i(line.begin(), line.end(), link), end; i != end; ++i) links.push_back((*i)[1]);
+  }
+  return links;
+}
+
 /// The rows of the glossary: "| `name` | unit | meaning |".
 struct GlossaryEntry {
   std::string name;
@@ -133,11 +175,9 @@ struct GlossaryEntry {
 inline std::vector<GlossaryEntry> glossary_of(const std::string& markdown) {
   static const std::regex row("\\| `([a-z0-9_/<>]+)` \\| ([^|]*) \\| (.*) \\|");
   std::vector<GlossaryEntry> entries;
-  bool inside = false;
   for (const std::string& line : lines_of(markdown)) {
-    if (line.rfind("#", 0) == 0) inside = line.find("Glossary") != std::string::npos;
     std::smatch found;
-    if (inside && std::regex_match(line, found, row)) entries.push_back({found[1], found[2], found[3]});
+    if (std::regex_match(line, found, row)) entries.push_back({found[1], found[2], found[3]});
   }
   return entries;
 }
