@@ -7,11 +7,6 @@
 #include "modules/area.hpp"
 
 namespace parallax {
-namespace {
-
-std::shared_ptr<const RowEnds> shared(RowEnds rows) { return std::make_shared<RowEnds>(std::move(rows)); }
-
-}  // namespace
 
 MachineRows::MachineRows(const Machine& machine)
     : machine_(machine),
@@ -43,10 +38,11 @@ void MachineRows::add(const StreamBase& stream, std::uint64_t tokens) {
     }
     streams_[&stream] = ends;
   } else if (tokens % rows == 0) {
-    streams_[&stream] = shared(equal_rows(tokens / rows, height_, tiles_));
+    streams_[&stream] = std::make_shared<const RowEnds>(equal_rows(tokens / rows, height_, tiles_));
   } else if (const std::uint64_t of_a_tile = tokens / tiles_; of_a_tile % width_ == 0) {
     // Records of the matcher's store, of less rows, or of the rows of two passes.
-    streams_[&stream] = shared(equal_rows(width_, static_cast<std::int32_t>(of_a_tile / width_), tiles_));
+    streams_[&stream] = std::make_shared<const RowEnds>(
+        equal_rows(width_, static_cast<std::int32_t>(of_a_tile / width_), tiles_));
   }
 }
 
