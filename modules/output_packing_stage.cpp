@@ -89,7 +89,6 @@ OutputPackingStage::OutputPackingStage(const sc_core::sc_module_name& name, cons
 }
 
 void OutputPackingStage::pack(const Gray* left, const Disparity* disparities) {
-  if (tap_) tap_(disparities);
   const PackedColumns& columns = passes_[pass_];
   kernels_[pass_].push(left + columns.begin, disparities + columns.begin, [&](const std::uint8_t* row) {
     out_bursts.send_row(row, OutputPacking::row_bytes(columns.end - columns.begin, left_));

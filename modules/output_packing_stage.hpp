@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <functional>
 #include <systemc>
 #include <vector>
 
@@ -40,9 +39,6 @@ class OutputPackingStage final : public Stage {
 
   /// The burst in the making.
   Bits storage() const { return Bits(kernels_.front().storage_bits()) + burst_; }
-  /// Told of each row of disparities, in all columns, with the causes that the packed bytes do not carry; a
-  /// view for the model's user, not a part of the machine.
-  void tap(std::function<void(const Disparity* row)> tap) { tap_ = std::move(tap); }
 
  private:
   void pack(const Gray* left, const Disparity* disparities);
@@ -54,7 +50,6 @@ class OutputPackingStage final : public Stage {
   Bits burst_;
   std::size_t pass_ = 0;  // under way
   int y_ = 0;             // its next row
-  std::function<void(const Disparity*)> tap_;
   RowJoin<Gray, Disparity> rows_;
 };
 

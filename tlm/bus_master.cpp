@@ -103,7 +103,7 @@ void BusMaster::answered(std::vector<Request>::iterator request, const sc_core::
     ending_.emplace(later.base(), request->time, time, payload.get_data_length());
   }
   latencies_.add(time - request->time);
-  if (!listeners_.empty()) {
+  if (listeners_.any()) {
     const BusTransfer transfer{payload.is_write(), payload.get_address(), payload.get_data_length(),
                                request->time, time};
     for (BusListener* listener : listeners_) listener->transferred(*this, transfer);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "tlm/latency_histogram.hpp"
+#include "tlm/listeners.hpp"
 #include "tlm/payload_pool.hpp"
 
 namespace parallax {
@@ -30,7 +31,7 @@ struct BusTransfer {
   sc_core::sc_time answered;  ///< now or in the future
 };
 
-/// Told of each request of a bus master and of its answer, in the order in which they are sent and known.
+/// Notified of each request of a bus master and of its answer, in the order in which they are sent and known.
 class BusListener {
  public:
   virtual ~BusListener() = default;
@@ -74,8 +75,9 @@ class BusMaster final : public sc_core::sc_module {
   /// Functional access, in no time.
   void read_now(std::uint64_t address, std::uint8_t* data, std::size_t size);
 
-  /// One more listener; it must outlive the simulation.
-  void listen(BusListener& listener) { listeners_.push_back(&listener); }
+  /// One more listener, or one less (Listeners).
+  void add_listener(BusListener& listener) { listeners_.add(listener); }
+  void remove_listener(BusListener& listener) { listeners_.remove(listener); }
 
   /// Requests whose answer is not known.
   std::size_t in_flight() const { return requests_.size(); }
@@ -114,7 +116,7 @@ class BusMaster final : public sc_core::sc_module {
   PayloadPool pool_;
   std::uint32_t outstanding_;
   BusClient& client_;
-  std::vector<BusListener*> listeners_;
+  Listeners<BusListener> listeners_;
   tlm_utils::peq_with_cb_and_phase<BusMaster>
       later_;                      // answers that came with the request and are dated later
   std::vector<Request> requests_;  // not answered, in order

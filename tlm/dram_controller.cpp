@@ -76,7 +76,7 @@ bool DramController::plan_newest() {
 
 void DramController::issue_until(Clock limit, std::vector<Done>& done) {
   for (plan_exactly(); plan_.clock < limit; plan_exactly()) {
-    if (idle() && plan_.command == DramCommand::kRefresh && listener_ == nullptr) skip_refreshes(limit);
+    if (idle() && plan_.command == DramCommand::kRefresh && !listeners_.any()) skip_refreshes(limit);
     issue(done);
   }
 }

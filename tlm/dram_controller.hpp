@@ -8,6 +8,7 @@
 
 #include "tlm/dram_address.hpp"
 #include "tlm/dram_timing.hpp"
+#include "tlm/listeners.hpp"
 
 namespace parallax {
 
@@ -115,7 +116,9 @@ class DramController {
 
   const DramStatistics& statistics() const { return statistics_; }
   const DramTiming& timing() const { return timing_; }
-  void listen(DramListener* listener) { listener_ = listener; }
+  /// One more listener, or one less (Listeners).
+  void add_listener(DramListener& listener) { listeners_.add(listener); }
+  void remove_listener(DramListener& listener) { listeners_.remove(listener); }
 
  private:
   struct Entry {  // bursts of one row with one tag, one after the other
@@ -181,7 +184,7 @@ class DramController {
   void issue(std::vector<Done>& done);
   void issue_row(const Plan& plan);
   void tell(Clock at, DramCommand command, const DramPlace& place) const {
-    if (listener_ != nullptr) listener_->command(at, command, place.bank, place.row);
+    for (DramListener* listener : listeners_) listener->command(at, command, place.bank, place.row);
   }
   void activate(Clock at, const DramPlace& place);
   void precharge(Clock at, Bank& bank);
@@ -219,7 +222,7 @@ class DramController {
   bool oldest_planned_ = false;       // by plan_oldest()
   std::vector<Clock> columns_;        // of serve_alone()
   DramStatistics statistics_;
-  DramListener* listener_ = nullptr;
+  Listeners<DramListener> listeners_;
 };
 
 }  // namespace parallax

@@ -66,10 +66,7 @@ bool Leap::extend() {
   periods_ += periods;
   for (const std::vector<Member*>* members : {&irregular_, &regular_}) {
     for (Member* member : *members) {
-      const StageListener* listener = member->stage->listener_;
-      if (listener != nullptr && (periods_ - member->told) * member->firings >= listener->patience()) {
-        tell(*member);
-      }
+      notify_listeners(*member, periods, Notify::kImpatient);
       member->done += periods * member->firings;
     }
   }
@@ -77,13 +74,23 @@ bool Leap::extend() {
   return true;
 }
 
-// Tells the stage's listener of the periods that it does not know of yet.
-void Leap::tell(Member& member) {
-  StageListener* listener = member.stage->listener_;
-  const std::uint64_t periods = periods_ - std::exchange(member.told, periods_);
-  if (listener == nullptr || periods == 0) return;
-  listener->repeated(*member.stage, member.observed, Cycles(period_ * as_signed(periods_ - periods + 1)),
-                     Cycles(period_), periods);
+// Adds `periods` to those that the stage's listeners do not know of yet, and notifies of them those whose
+// patience is at an end, or all. Each is called as if it were the only one.
+void Leap::notify_listeners(Member& member, std::uint64_t periods, Notify whom) {
+  Stage& stage = *member.stage;
+  if (!stage.listeners_.any()) return;
+  // One that was added or removed meanwhile: all knew of everything then.
+  member.untold.resize(stage.listeners_.size());
+  auto untold = member.untold.begin();
+  for (StageListener* listener : stage.listeners_) {
+    std::uint64_t& waiting = *untold++;
+    waiting += periods;
+    if (waiting == 0 || (whom == Notify::kImpatient && waiting * member.firings < listener->patience())) {
+      continue;
+    }
+    const Cycles later(period_ * as_signed(periods_ - waiting + 1));
+    listener->repeated(stage, member.observed, later, Cycles(period_), std::exchange(waiting, 0));
+  }
 }
 
 // Follows the schedule as long as it keeps to the pattern.

@@ -99,10 +99,10 @@ class Leap {
     StageStatistics delta;
     std::vector<FiringDates> observed;
     // Progress:
-    std::uint64_t base = 0, done = 0;  // firings at the end of the period observed, and since
-    std::uint64_t told = 0;            // periods since, that the stage's listener knows of
-    std::uint64_t sure_periods = 0;    // periods since, that nothing but streams can hold back
-    Stage::Position cursor;            // of firing `scanned`
+    std::uint64_t base = 0, done = 0;   // firings at the end of the period observed, and since
+    std::vector<std::uint64_t> untold;  // periods since, that each listener of the stage has yet to know of
+    std::uint64_t sure_periods = 0;     // periods since, that nothing but streams can hold back
+    Stage::Position cursor;             // of firing `scanned`
     std::uint64_t scanned = 0;
     bool ended = false;  // the pattern ends at `scanned`
     Ring<Event> events;
@@ -134,7 +134,8 @@ class Leap {
   bool write_pending(Member& member);
   std::uint64_t possible_periods(Link& link, std::uint64_t wanted);
   static bool is_sure(const Link& link);
-  void tell(Member& member);
+  enum class Notify { kImpatient, kAll };
+  void notify_listeners(Member& member, std::uint64_t periods, Notify whom);
   void commit_events(Member& member, std::uint64_t until);
   Cycles start_of(const Member& member, std::uint64_t firing) const;
   std::pair<std::size_t, Cycles> in_period(const Member& member, std::uint64_t firing) const;

@@ -47,7 +47,7 @@ bool Leap::observe() {
       member.last_event_write = stage.last_write_;
       member.claimed_pending = 0;
       member.place_firing = 0;
-      member.done = member.told = member.sure_periods = 0;
+      member.done = member.sure_periods = 0;
       same = same && repeats(member);
       while (same && !member.ended && member.scanned < member.base) scan(member);
       same = same && member.scanned >= member.base;

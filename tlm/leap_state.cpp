@@ -14,7 +14,7 @@ using namespace leap_detail;
 
 void Leap::materialize() {
   for (Member& member : members_) {
-    if (member.active && member.takes_part) tell(member);
+    if (member.active && member.takes_part) notify_listeners(member, 0, Notify::kAll);
   }
   const std::uint64_t periods = periods_ - materialized_;
   if (periods == 0) return;
@@ -101,8 +101,9 @@ void Leap::materialize(Link& link, std::uint64_t periods) {
   StreamStatistics& statistics = stream.statistics_;
   if (link.writes != 0) {
     extend(stream.write_dates_, statistics.written, link.writes);
-    if (stream.listener_ != nullptr)
-      stream.listener_->written_again(stream, model_, Cycles(period_), periods);
+    for (StreamListener* listener : stream.listeners_) {
+      listener->written_again(stream, model_, Cycles(period_), periods);
+    }
     statistics.written += periods * link.writes;
     statistics.blocked_on_full += link.blocked * as_signed(periods);
     stream.last_write_ = stream.write_date(statistics.written - 1);
@@ -110,7 +111,9 @@ void Leap::materialize(Link& link, std::uint64_t periods) {
   }
   if (link.reads != 0) {
     extend(stream.read_dates_, statistics.read, link.reads);
-    if (stream.listener_ != nullptr) stream.listener_->read_again(stream, model_, Cycles(period_), periods);
+    for (StreamListener* listener : stream.listeners_) {
+      listener->read_again(stream, model_, Cycles(period_), periods);
+    }
     statistics.read += periods * link.reads;
     statistics.starved_on_empty += link.starved * as_signed(periods);
     stream.last_read_ = stream.read_date(statistics.read - 1);

@@ -148,14 +148,14 @@ bool Stage::fire() {
     }
     statistics_.of(room_wait) += blocked;
   }
-  if (observed_ != nullptr || listener_ != nullptr) {
+  if (observed_ != nullptr || listeners_.any()) {
     const FiringDates dates{free_,      ready,     start,  phase.interval, work,
                             input_wait, room_wait, latest, fullest};
     if (observed_ != nullptr) {
       observed_->push_back(dates);
       observe(phase, consumed);
     }
-    if (listener_ != nullptr) listener_->fired(*this, dates);
+    for (StageListener* listener : listeners_) listener->fired(*this, dates);
   }
   starts_[statistics_.firings % kStartsKept] = start;
   for (StreamBase* stream : consumed) stream->mark_read(start, stream == latest ? starved : Cycles(0));
@@ -196,9 +196,11 @@ bool Stage::fire_writers() {
       statistics_.of(wait) += start - free_;
       stream->count_blocked(start - free_);
     }
-    if (listener_ != nullptr) {
-      listener_->fired(*this, {free_, free_, start, phase.interval, StageActivity::kBusy,
-                               StageActivity::kStarved, wait, nullptr, stream});
+    if (listeners_.any()) {
+      const FiringDates dates{
+          free_, free_,   start, phase.interval, StageActivity::kBusy, StageActivity::kStarved,
+          wait,  nullptr, stream};
+      for (StageListener* listener : listeners_) listener->fired(*this, dates);
     }
     free_ = start + interval;
     starts_[(statistics_.firings + fired) % kStartsKept] = start;

@@ -11,6 +11,7 @@
 #include "tlm/clock_domain.hpp"
 #include "tlm/dataflow.hpp"
 #include "tlm/kept_records.hpp"
+#include "tlm/listeners.hpp"
 #include "tlm/schedule.hpp"
 #include "tlm/stage_activity.hpp"
 #include "tlm/stream.hpp"
@@ -58,8 +59,16 @@ class Stage : public sc_core::sc_module, public Actor {
   }
   /// At least the first and the last `number` of these are kept; all, unless this is called.
   void keep_frames(std::size_t number) { frames_.keep(number); }
-  /// At most one listener; nullptr for none. It must outlive the simulation.
-  void listen(StageListener* listener) { listener_ = listener; }
+  /// Notifies `listener` of the firings from here on, besides all others (Listeners::add).
+  void add_listener(StageListener& listener) {
+    dataflow_.bring_up_to_date();
+    listeners_.add(listener);
+  }
+  /// Notifies it of what is known, and of nothing after that.
+  void remove_listener(StageListener& listener) {
+    dataflow_.bring_up_to_date();
+    listeners_.remove(listener);
+  }
   /// The streams at input (output) port `port`, in order of binding; after elaboration.
   std::vector<const StreamBase*> input_streams(unsigned port) const { return at_port(inputs_, port); }
   std::vector<const StreamBase*> output_streams(unsigned port) const { return at_port(outputs_, port); }
@@ -166,7 +175,7 @@ class Stage : public sc_core::sc_module, public Actor {
   const Phase* phase_ = nullptr;                                          // at next_
   std::uint64_t fire_limit_ = std::numeric_limits<std::uint64_t>::max();  // set by Leap
   std::vector<FiringDates>* observed_ = nullptr;                          // by Leap
-  StageListener* listener_ = nullptr;
+  Listeners<StageListener> listeners_;
   std::array<Cycles, kStartsKept> starts_{};  // of the last firings
   Cycles free_{0};                            // first cycle in which the stage can fire again
   std::vector<Firing> pipe_;                  // the last firings that write, by index & pipe_mask_

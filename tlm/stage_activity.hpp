@@ -68,13 +68,14 @@ struct FiringDates {
   const StreamBase* room = nullptr;                    ///< the output that had room last, where that is known
 };
 
-/// Told of the firings of a stage, in their order, as soon as their dates are known.
+/// Notified of the firings of a stage, in their order, as soon as their dates are known.
 class StageListener {
  public:
   virtual ~StageListener() = default;
   virtual void fired(const Stage& stage, const FiringDates& firing) = 0;
   /// The firings `period` again, `times` times: the first time `later` cycles later, each further time
-  /// `every` cycles after the one before. May come later than their dates are known, see patience().
+  /// `every` cycles after the one before. May come later than their dates are known, see patience(). What one
+  /// listener is told in one call may be several for another.
   virtual void repeated(const Stage& stage, const std::vector<FiringDates>& period, Cycles later,
                         Cycles every, std::uint64_t times) = 0;
   /// With fewer firings than these repeated() may wait for more of the same.

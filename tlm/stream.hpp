@@ -1,19 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <deque>
 #include <functional>
 #include <systemc>
 #include <utility>
 #include <vector>
 
+#include "tlm/listeners.hpp"
+#include "tlm/row_collector.hpp"
 #include "tlm/stream_base.hpp"
 
 namespace parallax {
 
+/// Notified of the values of a stream, in the order of its tokens, as the writer hands them over: in rows,
+/// and ahead of their dates. A Tap has both together.
+template <class T>
+class RowListener {
+ public:
+  virtual ~RowListener() = default;
+  virtual void row(const StreamBase& stream, const T* values, std::size_t size) = 0;
+};
+
 /// A stream with values. Dates and values travel apart: dates token by token (StreamBase), values row by row
 /// and ahead of their dates, since no value in this machine depends on time. A reader that works on rows
 /// takes each as it is sent; for a reader in kernel time the values wait until it reads them.
+///
+/// A token is one value, or several where its writer and reader have agreed so (a beat of matching costs):
+/// the stream's values are those of its tokens one after the other.
 template <class T>
 class Stream final : public StreamBase {
  public:
@@ -24,18 +39,23 @@ class Stream final : public StreamBase {
   /// The reader takes rows of `length` values, which are collected where the writer delivers them piece by
   /// piece; with length 0 it takes them as they are sent.
   void on_row(std::size_t length, Row take) {
-    row_length_ = length;
+    collected_ = RowCollector<T>(length);
     take_ = std::move(take);
   }
+  /// Notifies `listener` of all values from here on, before the reader gets them (Listeners::add). Dates may
+  /// lag behind, so the first of these values need not be of the next token: to meet values with their
+  /// tokens, listen from before the simulation starts.
+  void add_row_listener(RowListener<T>& listener) { row_listeners_.add(listener); }
+  void remove_row_listener(RowListener<T>& listener) { row_listeners_.remove(listener); }
 
-  /// The writer hands over the values of the next `length` tokens.
+  /// The writer hands over the next `length` values.
   void send_row(const T* row, std::size_t length) {
-    if (take_ && (row_length_ == 0 || (length == row_length_ && values_.empty()))) {
-      take_(row, length);
-      return;
+    for (RowListener<T>* listener : row_listeners_) listener->row(*this, row, length);
+    if (take_) {
+      collected_.push(row, length, take_);
+    } else {
+      values_.insert(values_.end(), row, row + length);
     }
-    values_.insert(values_.end(), row, row + length);
-    deliver_collected();
   }
 
   /// For threads in kernel time: reads one token in the first cycle in which that is possible. The value must
@@ -54,24 +74,15 @@ class Stream final : public StreamBase {
   /// For threads in kernel time: writes one token in the first cycle in which that is possible.
   void write(const T& value) {
     wait_writable();
-    values_.push_back(value);
-    deliver_collected();
+    send_row(&value, 1);
     commit();
   }
 
  private:
-  void deliver_collected() {
-    while (take_ && row_length_ != 0 && values_.size() >= row_length_) {
-      const auto end = values_.begin() + static_cast<std::ptrdiff_t>(row_length_);
-      const std::vector<T> row(values_.begin(), end);
-      values_.erase(values_.begin(), end);
-      take_(row.data(), row.size());
-    }
-  }
-
-  std::size_t row_length_ = 0;
+  RowCollector<T> collected_;
   Row take_;
-  std::deque<T> values_;
+  std::deque<T> values_;  // for a reader in kernel time
+  Listeners<RowListener<T>> row_listeners_;
 };
 
 /// What a stage needs of a port whatever its token type.
@@ -119,7 +130,7 @@ class StreamOut final : public sc_core::sc_port<Stream<T>, 0>, public StreamPort
     for (int i = 0; i < this->size(); ++i) bound.push_back((*this)[i]);
     return bound;
   }
-  /// Hands the values of the next `length` tokens to every bound stream.
+  /// Hands the next `length` values to every bound stream.
   void send_row(const T* row, std::size_t length) {
     for (int i = 0; i < this->size(); ++i) (*this)[i]->send_row(row, length);
   }

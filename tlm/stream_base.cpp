@@ -88,6 +88,14 @@ void StreamBase::attach_reader(const std::string& module, Actor* actor) {
   }
 }
 
+void StreamBase::notify_read(Cycles cycle) {
+  for (StreamListener* listener : listeners_) listener->read(*this, cycle);
+}
+
+void StreamBase::notify_written(Cycles cycle) {
+  for (StreamListener* listener : listeners_) listener->written(*this, cycle);
+}
+
 void StreamBase::wake_writer() {
   writer_waits_ = false;
   if (writer_ != nullptr) {

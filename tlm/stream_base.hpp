@@ -11,6 +11,7 @@
 #include "tlm/clock_domain.hpp"
 #include "tlm/dataflow.hpp"
 #include "tlm/fifo_kind.hpp"
+#include "tlm/listeners.hpp"
 #include "tlm/occupancy.hpp"
 #include "tlm/units.hpp"
 
@@ -56,7 +57,7 @@ struct FifoFill {
 
 class StreamBase;
 
-/// Told of every date as it becomes known, in the order of the stream's tokens on each side.
+/// Notified of every date as it becomes known, in the order of the stream's tokens on each side.
 class StreamListener {
  public:
   virtual ~StreamListener() = default;
@@ -135,8 +136,17 @@ class StreamBase : public sc_core::sc_prim_channel, public virtual sc_core::sc_i
   /// cheap to ask for often.
   void fill(FifoFill& fill) const;
   Dataflow& dataflow() const { return dataflow_; }
-  /// At most one listener; nullptr for none. It must outlive the simulation.
-  void listen(StreamListener* listener) { listener_ = listener; }
+  /// Notifies `listener` of the dates from here on, besides all others (Listeners::add). The next token that
+  /// it sees written (read) is number statistics().written (read).
+  void add_listener(StreamListener& listener) {
+    dataflow_.bring_up_to_date();
+    listeners_.add(listener);
+  }
+  /// Notifies it of what is known, and of nothing after that.
+  void remove_listener(StreamListener& listener) {
+    dataflow_.bring_up_to_date();
+    listeners_.remove(listener);
+  }
 
   /// Called by the ports: the innermost module on each side is the endpoint.
   void attach_writer(const std::string& module, Actor* actor);
@@ -159,7 +169,7 @@ class StreamBase : public sc_core::sc_prim_channel, public virtual sc_core::sc_i
     statistics_.starved_on_empty += starved;
     ++statistics_.read;
     last_read_ = cycle;
-    if (listener_ != nullptr) listener_->read(*this, cycle);
+    if (listeners_.any()) notify_read(cycle);
     if (statistics_.read % kSettleInterval == 0) settle();
     if (writer_waits_) wake_writer();
   }
@@ -183,7 +193,7 @@ class StreamBase : public sc_core::sc_prim_channel, public virtual sc_core::sc_i
     statistics_.blocked_on_full += blocked;
     ++statistics_.written;
     last_write_ = cycle;
-    if (listener_ != nullptr) listener_->written(*this, cycle);
+    if (listeners_.any()) notify_written(cycle);
     if (reader_waits_) wake_reader();
   }
   /// The writing actor stops here until there is known to be room.
@@ -243,6 +253,8 @@ class StreamBase : public sc_core::sc_prim_channel, public virtual sc_core::sc_i
     return writer_clock_.first_edge_after(reader_clock_, read) + Cycles(config_.read_to_write - 1);
   }
   void settle() const;
+  void notify_read(Cycles cycle);
+  void notify_written(Cycles cycle);
   void wake_reader();
   void wake_writer();
 
@@ -265,7 +277,7 @@ class StreamBase : public sc_core::sc_prim_channel, public virtual sc_core::sc_i
   mutable Cycles settled_until_{0};           // the occupancy has been counted up to here
   bool reader_waits_ = false;
   bool writer_waits_ = false;
-  StreamListener* listener_ = nullptr;
+  Listeners<StreamListener> listeners_;
   Actor* writer_ = nullptr;
   Actor* reader_ = nullptr;
   std::string writer_name_ = "nobody";

@@ -17,7 +17,7 @@ PortTrace::PortTrace(BusMaster& master, PartId id, const std::shared_ptr<const R
     : id_(id), window_(window), wants_bursts_(bursts), cursor_(rows), sinks_(sinks) {
   row_.port = id;
   row_.place = cursor_.place();
-  master.listen(*this);
+  master.add_listener(*this);
 }
 
 void PortTrace::known_until(Picoseconds until) {

@@ -26,7 +26,7 @@ StageTrace::StageTrace(Stage& stage, PartId id, const StagePorts& ports, const T
       stream_id_(std::move(stream_id)),
       sinks_(sinks) {
   current_.stage = id;
-  stage.listen(this);
+  stage.add_listener(*this);
 }
 
 PartId StageTrace::id_of(const StreamBase* stream) {

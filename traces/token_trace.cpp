@@ -75,7 +75,7 @@ TokenTrace::TokenTrace(StreamBase& stream, PartId id, const std::shared_ptr<cons
       sinks_(sinks),
       writes_(stream.writer_clock(), rows, window, stream.depth()),
       reads_(stream.reader_clock(), rows, window, stream.depth()) {
-  stream.listen(this);
+  stream.add_listener(*this);
 }
 
 void TokenTrace::known_until(Picoseconds until) {

@@ -70,7 +70,6 @@ Machine::Machine(const sc_core::sc_module_name& name, const MachineConfig& confi
     }
   }
   software_.driver.socket.bind(core_.control().bank.socket);
-  core_.pipeline().output().tap([this](const Disparity* row) { host_.expect(row); });
 }
 
 Acquisition::Listener Machine::acquisition_listener() {
@@ -114,6 +113,7 @@ void Machine::start_of_simulation() {
   core_.find_stages();
   parts_ = collect_parts();
   if (input_.timing_only) return;
+  core_.pipeline().output().in_disparity->add_row_listener(host_);
   ::tlm::tlm_generic_payload payload;
   std::vector<std::uint8_t> map_bytes = map().bytes;
   payload.set_command(::tlm::TLM_WRITE_COMMAND);

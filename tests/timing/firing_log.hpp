@@ -13,7 +13,7 @@ namespace parallax::test {
 /// Notes every firing of one stage, those of leaps one by one too: as a text, as far as that is short, and
 /// folded into one number.
 struct FiringLog final : StageListener {
-  explicit FiringLog(Stage& stage) { stage.listen(this); }
+  explicit FiringLog(Stage& stage) { stage.add_listener(*this); }
 
   void fired(const Stage&, const FiringDates& firing) override { note(firing); }
   void repeated(const Stage&, const std::vector<FiringDates>& period, Cycles later, Cycles every,

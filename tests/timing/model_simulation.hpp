@@ -62,7 +62,7 @@ class ModelSimulation {
                                                        clock(graph.nodes[from]), clock(graph.nodes[to]),
                                                        config));
       log_.push_back(std::make_unique<DateLog>(dates_[streams_.size() - 1]));
-      streams_.back()->listen(log_.back().get());
+      streams_.back()->add_listener(*log_.back());
     }
     stages_.resize(graph.nodes.size());
     threads_.resize(graph.nodes.size());

@@ -76,7 +76,7 @@ std::string dates_with(const MakeMiddle& make) {
     streams.push_back(
         std::make_unique<Stream<int>>(fmt::format("s{}", i).c_str(), dataflow, clock, clock, fifo));
     logs.push_back(std::make_unique<DateLog>(dates[static_cast<std::size_t>(i)]));
-    streams.back()->listen(logs.back().get());
+    streams.back()->add_listener(*logs.back());
   }
   (*source.out[0])(*streams[0]);
   (*before.in[0])(*streams[0]);

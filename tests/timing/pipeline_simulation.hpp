@@ -84,7 +84,7 @@ class PipelineSimulation {
     dates_.resize(streams.size());
     for (std::size_t i = 0; i < streams.size(); ++i) {
       logs_.push_back(std::make_unique<DateLog>(dates_[i]));
-      streams[i]->listen(logs_.back().get());
+      streams[i]->add_listener(*logs_.back());
     }
   }
 

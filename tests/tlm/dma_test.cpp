@@ -105,7 +105,7 @@ struct ReaderBench {
     reader.master.socket.bind(memory.socket);
     reader.out_bursts(stream);
     sink.in(stream);
-    stream.listen(&log);
+    stream.add_listener(log);
   }
   ClockDomain clock{"dma", Hertz(100'000'000)};
   MemoryModel memory;
@@ -376,7 +376,7 @@ struct WriterBench {
     writer.master.socket.bind(memory.socket);
     writer.in_bursts(stream);
     source.out(stream);
-    stream.listen(&log);
+    stream.add_listener(log);
   }
   ClockDomain clock{"dma", Hertz(100'000'000)};
   MemoryModel memory;

@@ -85,7 +85,7 @@ RC_GTEST_PROP(DramController, EveryCommandIsThatOfTheClockByClockReference, (std
   policy.low_watermark = draw() % policy.high_watermark;
   DramController controller(timing, policy);
   Log log;
-  controller.listen(&log);
+  controller.add_listener(log);
   NaiveDram naive(timing, policy);
   const unsigned rows = 1 + draw() % 3;
   const unsigned load = 1 + draw() % 12;  // an arrival in so many clocks
@@ -170,7 +170,7 @@ TEST(DramController, RefreshesWithoutWorkAreCountedNotGoneThrough) {
   struct Listener final : DramListener {  // who listens is told of each
     void command(std::int64_t, DramCommand, std::uint32_t, std::uint32_t) override {}
   } listener;
-  stepped.listen(&listener);
+  stepped.add_listener(listener);
   for (DramController* controller : {&stepped, &leapt}) {
     std::vector<DramController::Done>& done = controller == &stepped ? one : other;
     for (const DramController::Clock at : {10, 5000, 1'000'000, 1'004'160}) {

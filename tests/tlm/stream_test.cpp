@@ -39,7 +39,7 @@ struct Channel {
             values.push_back(stream.read());
           }
         }) {
-    stream.listen(&log);
+    stream.add_listener(log);
     sc_core::sc_start();
   }
   ClockDomain writer_clock, reader_clock;
@@ -281,7 +281,7 @@ TEST(Stream, CommitInTheFutureKeepsTheOrder) {
   Stream<int> stream("stream", dataflow, clock, clock, fifo(4));
   EdgeDates dates;
   DateLog log(dates);
-  stream.listen(&log);
+  stream.add_listener(log);
   Thread writing("writing", [&] {
     stream.commit(sc_core::sc_time(71, sc_core::SC_NS));  // between two edges: the later one
     stream.commit(sc_core::sc_time(80, sc_core::SC_NS));
