@@ -4,36 +4,26 @@
 namespace parallax {
 namespace {
 
-// Collects the firings of pixels, one after the other.
-class Firings {
+// The firings of pixels, one after the other.
+class PixelFirings {
  public:
-  explicit Firings(Bytes burst) : burst_(static_cast<std::uint64_t>(burst.count())) {}
+  explicit PixelFirings(Bytes burst) : burst_(static_cast<std::uint64_t>(burst.count())) {}
 
-  void drop(int pixels) { idle_ += static_cast<std::uint32_t>(pixels); }
+  void drop(int pixels) { firings_.add(fires(static_cast<std::uint64_t>(pixels)).reads(0b11)); }
   // A pixel after which the piece has `bytes` bytes; `last`: it ends there.
   void pack(std::uint64_t bytes, bool last) {
     const std::uint64_t complete = last ? (bytes + burst_ - 1) / burst_ : bytes / burst_;
-    if (complete == bursts_) {
-      ++idle_;
-    } else {
-      schedule_.repeat(1, {{idle_, 1, 0b11, 0}, {1, 1, 0b11, 0b1}});
-      idle_ = 0;
-      // A burst smaller than a pixel pair leaves in a cycle of its own.
-      if (complete - bursts_ > 1)
-        schedule_.run({static_cast<std::uint32_t>(complete - bursts_ - 1), 1, 0, 0b1});
-    }
+    firings_.add(fires().reads(0b11).writes(complete == bursts_ ? 0 : 0b1));
+    // A burst smaller than a pixel pair leaves in a cycle of its own.
+    if (complete > bursts_ + 1) firings_.add(fires(complete - bursts_ - 1).writes(0b1));
     bursts_ = last ? 0 : complete;
   }
-  Schedule take() {
-    if (idle_ > 0) schedule_.run({idle_, 1, 0b11, 0});
-    return std::move(schedule_);
-  }
+  Schedule schedule() const { return Schedule().run(firings_); }
 
  private:
   const std::uint64_t burst_;
   std::uint64_t bursts_ = 0;  // complete, of the piece
-  std::uint32_t idle_ = 0;    // pixels since the last one that completed a burst
-  Schedule schedule_;
+  Firings firings_;
 };
 
 bool whole(const OutputPackingConfig& config, const StageContext& context) {
@@ -42,7 +32,7 @@ bool whole(const OutputPackingConfig& config, const StageContext& context) {
 
 Schedule packing_schedule(const OutputPackingConfig& config, const StageContext& context) {
   const bool one_piece = whole(config, context);
-  Firings firings(config.burst);
+  PixelFirings firings(config.burst);
   for (const PackedColumns& columns : config.passes) {
     const int width = columns.end - columns.begin;
     for (int y = 0; y < context.height; ++y) {
@@ -59,7 +49,7 @@ Schedule packing_schedule(const OutputPackingConfig& config, const StageContext&
       firings.drop(context.width - columns.end);
     }
   }
-  return firings.take();
+  return firings.schedule();
 }
 
 std::vector<OutputPacking> kernels(const OutputPackingConfig& config) {

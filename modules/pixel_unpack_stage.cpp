@@ -9,23 +9,16 @@ namespace {
 
 // The firings for `bytes` bytes, beginning with a burst and a pixel.
 std::vector<Phase> cut(std::uint64_t bytes, std::uint64_t burst, std::uint64_t bits) {
-  std::vector<Phase> phases;
-  const auto fire = [&phases](PortMask consume, PortMask produce) {
-    if (!phases.empty() && phases.back().consume == consume && phases.back().produce == produce) {
-      ++phases.back().count;
-    } else {
-      phases.push_back({1, 1, consume, produce});
-    }
-  };
+  Firings firings;
   std::uint64_t bursts = 0;
   for (std::uint64_t pixel = 0; pixel < bytes * 8 / bits; ++pixel) {
     const std::uint64_t last_byte = ((pixel + 1) * bits + 7) / 8 - 1;
     const std::uint64_t needed = last_byte / burst + 1;
-    for (; bursts + 1 < needed; ++bursts) fire(0b1, 0);
-    fire(bursts < needed ? 0b1 : 0, 0b1);
+    for (; bursts + 1 < needed; ++bursts) firings.add(fires().reads(0b1));
+    firings.add(fires().reads(bursts < needed ? 0b1 : 0).writes(0b1));
     bursts = needed;
   }
-  return phases;
+  return firings.phases();
 }
 
 }  // namespace

@@ -7,11 +7,11 @@
 namespace parallax {
 namespace {
 
-PortMask at_beat(const PixelPorts& ports, std::uint32_t beat, std::uint32_t beats) {
+unsigned at_beat(const PixelPorts& ports, std::uint32_t beat, std::uint32_t beats) {
   unsigned mask = ports.every;
   if (beat == 0) mask |= ports.first;
   if (beat + 1 == beats) mask |= ports.last;
-  return static_cast<PortMask>(mask);
+  return mask;
 }
 
 PixelPorts both(const PixelPorts& a, const PixelPorts& b) {
@@ -33,7 +33,7 @@ struct Kind {
   bool last_row = false;
 };
 
-// The firings of one such pixel; equal neighbours are one phase.
+// The firings of one such pixel.
 std::vector<Phase> pixel(const RasterSchedule& raster, const Kind& kind) {
   PixelPorts consume;
   PixelPorts produce;
@@ -49,18 +49,14 @@ std::vector<Phase> pixel(const RasterSchedule& raster, const Kind& kind) {
   if (kind.store != nullptr && !kind.last_row) produce = both(produce, kind.store->writes);
   const bool all_beats = kind.reads || raster.writes.every != 0 || raster.reads_late.every != 0;
   const std::uint32_t beats = all_beats ? raster.beats : 1;
-  std::vector<Phase> phases;
+  Firings firings;
   for (std::uint32_t beat = 0; beat < beats; ++beat) {
-    Phase phase{1, raster.timing.interval, at_beat(consume, beat, beats), at_beat(produce, beat, beats)};
-    if (beat + 1 == beats) phase.interval = std::max(phase.interval, raster.last_interval);
-    if (!phases.empty() && phases.back().consume == phase.consume && phases.back().produce == phase.produce &&
-        phases.back().interval == phase.interval) {
-      ++phases.back().count;
-    } else {
-      phases.push_back(phase);
-    }
+    std::uint32_t interval = raster.timing.interval;
+    if (beat + 1 == beats) interval = std::max(interval, raster.last_interval);
+    firings.add(
+        fires().reads(at_beat(consume, beat, beats)).writes(at_beat(produce, beat, beats)).every(interval));
   }
-  return phases;
+  return firings.phases();
 }
 
 }  // namespace
@@ -89,7 +85,7 @@ Schedule make_schedule(const StageContext& context, const RasterSchedule& raster
         stop = std::min(end, kind.first_row ? width : frame - width);
       }
       schedule.repeat(stop - done, pixel(raster, kind));
-      if (row_overhead > 0 && stop % width == 0) schedule.run({1, row_overhead, 0, 0});
+      if (stop % width == 0) schedule.run(idles(row_overhead));
       done = stop;
     }
   };
@@ -99,8 +95,7 @@ Schedule make_schedule(const StageContext& context, const RasterSchedule& raster
   // What is held back for a frame comes out in a second pass, row by row like the first one.
   const std::uint32_t second = raster.look_ahead == frame ? overhead : 0;
   go_through(frame - raster.look_ahead, frame, {false, true}, raster.second_pass, second);
-  if (raster.timing.frame_overhead > 0) schedule.run({1, raster.timing.frame_overhead, 0, 0});
-  return schedule;
+  return schedule.run(idles(raster.timing.frame_overhead));
 }
 
 }  // namespace parallax

@@ -6,34 +6,14 @@
 namespace parallax {
 namespace {
 
-// The firings of one row: a word that neither begins nor ends anything lengthens the one before.
-class Firings {
- public:
-  void add(bool consume, bool produce) {
-    if (!consume && !produce) {
-      ++firings_.back().interval;
-    } else {
-      firings_.push_back(
-          {1, 1, static_cast<PortMask>(consume ? 1 : 0), static_cast<PortMask>(produce ? 1 : 0)});
-    }
+// A word of a row. One that neither begins nor ends anything lengthens the firing before.
+void add_word(Firings& firings, bool reads, bool writes) {
+  if (reads || writes) {
+    firings.add(fires().reads(reads ? 1 : 0).writes(writes ? 1 : 0));
+  } else {
+    firings.lengthen(1);
   }
-  /// Equal neighbours in one phase.
-  std::vector<Phase> phases() const {
-    std::vector<Phase> phases;
-    for (const Phase& next : firings_) {
-      if (!phases.empty() && phases.back().consume == next.consume && phases.back().produce == next.produce &&
-          phases.back().interval == next.interval) {
-        ++phases.back().count;
-      } else {
-        phases.push_back(next);
-      }
-    }
-    return phases;
-  }
-
- private:
-  std::vector<Phase> firings_;
-};
+}
 
 // Words of the row that byte `end` reaches into, counted from the row's begin.
 std::uint64_t words_until(const StoreLayout& layout, std::uint64_t end) {
@@ -58,7 +38,7 @@ std::vector<Phase> pack_row(const StoreLayout& layout, const StoreLayout::Pass& 
     do {
       const bool packs = packed < complete;
       if (packs) ++packed;
-      firings.add(first, packs && packed % per_burst == 0);
+      add_word(firings, first, packs && packed % per_burst == 0);
       first = false;
     } while (packed < complete);
   }
@@ -77,7 +57,7 @@ std::vector<Phase> unpack_row(const StoreLayout& layout, const StoreLayout::Pass
     do {
       const bool takes = taken < needed;
       if (takes) ++taken;
-      firings.add(takes && (taken - 1) % per_burst == 0, taken == needed);
+      add_word(firings, takes && (taken - 1) % per_burst == 0, taken == needed);
     } while (taken < needed);
   }
   return firings.phases();

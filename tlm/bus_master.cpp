@@ -17,7 +17,7 @@ BusMaster::BusMaster(const sc_core::sc_module_name& name, std::size_t burst_byte
   socket.register_nb_transport_bw(this, &BusMaster::nb_transport_bw);
 }
 
-sc_core::sc_time BusMaster::place_at() const {
+sc_core::sc_time BusMaster::credit_at() const {
   const std::size_t sent = requests_.size() + ending_.size();
   return sent < outstanding_ ? sc_core::SC_ZERO_TIME : ending_[sent - outstanding_].end;
 }

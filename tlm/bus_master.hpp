@@ -40,7 +40,7 @@ class BusListener {
   virtual void transferred(const BusMaster& master, const BusTransfer& transfer) = 0;
 };
 
-/// Told by a bus master how its requests fare.
+/// Notified by a bus master how its requests fare.
 class BusClient {
  public:
   virtual ~BusClient() = default;
@@ -67,8 +67,8 @@ class BusMaster final : public sc_core::sc_module {
   /// when fewer than `outstanding` are under way. When not, BusClient says when that has changed.
   bool ready() const { return requesting_ == nullptr && requests_.size() < outstanding_; }
   /// Needs ready(). When fewer than `outstanding` are under way: that date, or one in the past.
-  sc_core::sc_time place_at() const;
-  /// Needs ready(). Sends a payload of the pool with its date, `time`: not before the present, place_at(),
+  sc_core::sc_time credit_at() const;
+  /// Needs ready(). Sends a payload of the pool with its date, `time`: not before the present, credit_at(),
   /// and when the request before was taken. An answer that is an error is reported with SC_REPORT_ERROR
   /// /parallax/dma/response.
   void send(::tlm::tlm_generic_payload& payload, const sc_core::sc_time& time);

@@ -13,8 +13,8 @@ void BusScheduler::bind(MemoryQueues& queues) {
 }
 
 double BusScheduler::usable_bandwidth() const {
-  return static_cast<double>(timing_.bytes_per_cycle.count()) * static_cast<double>(timing_.efficiency) /
-         100.0 * static_cast<double>(clock_.frequency().count());
+  return timing_.bytes_per_cycle.real() * static_cast<double>(timing_.efficiency) / 100.0 *
+         clock_.frequency().real();
 }
 
 Cycles BusScheduler::transfer_time(const ::tlm::tlm_generic_payload& payload) {

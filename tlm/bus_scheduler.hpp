@@ -18,7 +18,7 @@ struct BusTiming {
 };
 
 /// A request takes the bus for ceil(bytes / (bytes_per_cycle * efficiency)) cycles, one after the other
-/// without a gap, and is answered `latency` plus that time after its service began. Its place in the queue is
+/// without a gap, and is answered `latency` plus that time after its service began. Its slot in the queue is
 /// free when its service begins.
 class BusScheduler final : public MemoryScheduler {
  public:
@@ -27,7 +27,7 @@ class BusScheduler final : public MemoryScheduler {
   void bind(MemoryQueues& queues) override;
   void serve_until(Picoseconds date, bool inclusive, MemoryService& service) override;
   Picoseconds next_answer() override;
-  Picoseconds next_place() override { return clock_.date_of(next_edge()); }
+  Picoseconds next_slot() override { return clock_.date_of(next_edge()); }
 
   Cycles bus_taken(std::size_t port, Picoseconds date) override;
   Cycles at_work(Picoseconds date) override;

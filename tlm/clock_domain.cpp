@@ -13,8 +13,6 @@ namespace {
 
 constexpr std::int64_t kPicosecondsPerSecond = 1'000'000'000'000;
 
-std::uint64_t unsigned_count(Cycles c) { return static_cast<std::uint64_t>(c.count()); }
-
 Hertz checked(const std::string& name, Hertz frequency) {
   require_picosecond_resolution();
   if (frequency < Hertz(1) || frequency > Hertz(kPicosecondsPerSecond)) {
@@ -29,21 +27,19 @@ Hertz checked(const std::string& name, Hertz frequency) {
 ClockDomain::ClockDomain(std::string name, Hertz frequency)
     : name_(std::move(name)),
       frequency_(checked(name_, frequency)),
-      period_(kPicosecondsPerSecond, static_cast<std::uint64_t>(frequency.count())),
-      rate_(static_cast<std::uint64_t>(frequency.count()), kPicosecondsPerSecond) {}
+      period_(kPicosecondsPerSecond, frequency.size()),
+      rate_(frequency.size(), kPicosecondsPerSecond) {}
 
 Cycles ClockDomain::first_edge_after(const ClockDomain& other, Cycles cycle) const {
   if (frequency_ == other.frequency_) return cycle + Cycles(1);
-  const auto to = static_cast<std::uint64_t>(frequency_.count());
-  const auto from = static_cast<std::uint64_t>(other.frequency_.count());
+  const std::uint64_t to = frequency_.size();
+  const std::uint64_t from = other.frequency_.size();
   std::uint64_t product = 0;
-  if (!__builtin_mul_overflow(unsigned_count(cycle), to, &product)) return Cycles(product / from + 1);
-  return Cycles(Ratio(to, from).floor(unsigned_count(cycle)) + 1);
+  if (!__builtin_mul_overflow(cycle.size(), to, &product)) return Cycles(product / from + 1);
+  return Cycles(Ratio(to, from).floor(cycle.size()) + 1);
 }
 
-double ClockDomain::seconds(Cycles cycles) const {
-  return static_cast<double>(cycles.count()) / static_cast<double>(frequency_.count());
-}
+double ClockDomain::seconds(Cycles cycles) const { return cycles.real() / frequency_.real(); }
 
 void ClockDomain::wait_until(Cycles cycle) const {
   const sc_core::sc_time target = time_of(cycle);

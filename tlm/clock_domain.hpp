@@ -23,21 +23,15 @@ class ClockDomain {
   Hertz frequency() const { return frequency_; }
 
   /// Kernel time of edge `cycle` (>= 0).
-  Picoseconds date_of(Cycles cycle) const {
-    return Picoseconds(period_.floor(static_cast<std::uint64_t>(cycle.count())));
-  }
-  sc_core::sc_time time_of(Cycles cycle) const {
-    return sc_core::sc_time::from_value(static_cast<std::uint64_t>(date_of(cycle).count()));
-  }
+  Picoseconds date_of(Cycles cycle) const { return Picoseconds(period_.floor(cycle.size())); }
+  sc_core::sc_time time_of(Cycles cycle) const { return sc_core::sc_time::from_value(date_of(cycle).size()); }
   /// First edge not before kernel time `time`. `cycle_at_or_after(time_of(n)) == n`.
   Cycles cycle_at_or_after(const sc_core::sc_time& time) const {
     // The picosecond that edge n is rounded down to is not before `time`, a whole number of picoseconds,
     // exactly when the edge itself is not.
     return Cycles(rate_.ceil(time.value()));
   }
-  Cycles cycle_at_or_after(Picoseconds date) const {
-    return Cycles(rate_.ceil(static_cast<std::uint64_t>(date.count())));
-  }
+  Cycles cycle_at_or_after(Picoseconds date) const { return Cycles(rate_.ceil(date.size())); }
   /// First edge not before the kernel's present time.
   Cycles now() const { return cycle_at_or_after(sc_core::sc_time_stamp()); }
   /// First edge of this clock strictly after edge `cycle` of `other`.

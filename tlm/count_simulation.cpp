@@ -41,7 +41,7 @@ void CountSimulation::add(const Participant& stage, const std::vector<const Stre
   for (std::size_t port = 0; port < writes.size(); ++port) {
     for (const std::size_t stream : writes[port]) fifos_[stream].writer = id, written |= 1u << port;
   }
-  // Where something is written, what goes elsewhere takes its place in the pipeline too. A pipeline that
+  // Where something is written, what goes elsewhere takes its slot in the pipeline too. A pipeline that
   // nothing holds up is none.
   if (written != 0 && stage.latency > 0) written = ~0u;
 

@@ -56,7 +56,7 @@ class CountSimulation {
   struct Action {  // what a firing does: streams, as ranges of lists_
     std::size_t consume, consume_end;
     std::size_t produce, produce_end;
-    bool enters;  // takes a place in the pipeline
+    bool enters;  // takes a slot in the pipeline
   };
   struct Run {  // firings in a row that do the same
     std::uint64_t count;

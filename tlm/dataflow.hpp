@@ -33,7 +33,7 @@ class Actor {
 struct Wait {
   std::string waiter;
   const StreamBase* stream;
-  bool on_full;  ///< true: the stream has no free place; false: it is empty
+  bool on_full;  ///< true: the stream has no free slot; false: it is empty
   std::string other;
 };
 
@@ -67,7 +67,7 @@ class Dataflow final : public sc_core::sc_module {
   std::uint64_t leaped_firings() const;
 
   /// The closed chain of waits when the simulation has run dry, else empty. Each wait's `other` is the next
-  /// one's `waiter`. A chain that ends at somebody who does not wait is no deadlock and is not returned.
+  /// one's `waiter`. A chain that ends at a module that does not wait is no deadlock and is not returned.
   std::vector<Wait> deadlock() const;
   /// Everyone who waits on a stream now.
   std::vector<Wait> waits() const;
@@ -77,7 +77,7 @@ class Dataflow final : public sc_core::sc_module {
   void start_of_simulation() override;
   void run();
   bool step();
-  void drain();  // actions and actors until nobody can move
+  void drain();  // actions and actors until none can move
   bool attempt_leaps();
   void look_anew() { firings_ = failures_ = 0; }
   void hold(Actor& actor, Leap* leap, bool active);

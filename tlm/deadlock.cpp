@@ -44,10 +44,10 @@ class Names {
 struct Part {
   std::vector<const StreamBase*> streams;
   std::vector<CountSimulation::Participant> stages;
-  std::string outsider;  // one of whom nobody knows what it does
+  std::string outsider;  // a module whose schedule is not known
 };
 
-// Somebody in kernel time with a single port, for its streams to bring or take whatever can be.
+// A module in kernel time with a single port, for its streams to bring or take whatever can be.
 std::optional<CountSimulation::Participant> end_of_graph(const std::string& name) {
   CountSimulation::Participant end;
   const sc_core::sc_object* module = sc_core::sc_find_object(name.c_str());
@@ -59,8 +59,7 @@ std::optional<CountSimulation::Participant> end_of_graph(const std::string& name
     (port->is_input() ? end.inputs : end.outputs).emplace_back(streams.begin(), streams.end());
   }
   if (end.inputs.size() + end.outputs.size() != 1) return std::nullopt;
-  end.schedule.run(
-      {1, 1, static_cast<PortMask>(end.inputs.size()), static_cast<PortMask>(end.outputs.size())});
+  end.schedule.run(fires().reads(end.inputs.empty() ? 0 : 1).writes(end.outputs.empty() ? 0 : 1));
   return end;
 }
 

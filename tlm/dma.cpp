@@ -16,7 +16,7 @@ std::uint64_t DmaJob::piece_bytes() const {
 }
 
 std::uint64_t burst_count(std::uint64_t bytes, Bytes burst) {
-  const auto size = static_cast<std::uint64_t>(burst.count());
+  const auto size = burst.size();
   return (bytes + size - 1) / size;
 }
 
@@ -28,8 +28,8 @@ std::uint64_t DmaJob::bursts_until(std::uint64_t bytes, Bytes burst) const {
 DmaEngine::DmaEngine(const sc_core::sc_module_name& name, const DmaEngineConfig& config,
                      const ClockDomain& clock)
     : sc_module(name),
-      master("master", static_cast<std::size_t>(config.burst.count()), config.outstanding, *this),
-      burst_(static_cast<std::uint64_t>(config.burst.count())),
+      master("master", config.burst.size(), config.outstanding, *this),
+      burst_(config.burst.size()),
       clock_(clock) {
   SC_HAS_PROCESS(DmaEngine);
   SC_METHOD(advance);
@@ -46,7 +46,7 @@ void DmaEngine::advance() {
   finish_jobs();
   advancing_ = true;
   while (have_burst() && master.ready()) {
-    free_ = std::max(free_, clock_.cycle_at_or_after(master.place_at()));
+    free_ = std::max(free_, clock_.cycle_at_or_after(master.credit_at()));
     if (!request_next()) break;
   }
   advancing_ = false;
@@ -70,7 +70,7 @@ bool DmaEngine::have_burst() {
     }
     const std::uint64_t last = requested_ + job_.bursts_until(bytes_, Bytes(burst_));
     ends_.push_back({last, std::move(job_.done), last_answer_});
-    if (job_.progress) told_.push_back({requested_ + 1, last, job_.progress});
+    if (job_.progress) followed_.push_back({requested_ + 1, last, job_.progress});
     finish_jobs();  // it may be without bytes
     job_begins();
   }
@@ -108,9 +108,9 @@ void DmaEngine::answered(const sc_core::sc_time& time, bool was_full) {
   ++answered_;
   last_answer_ = std::max(last_answer_, time);
   burst_answered(cycle);
-  if (!told_.empty() && answered_ >= told_.front().first) {
-    const std::shared_ptr<TransferProgress> progress = told_.front().progress;
-    if (answered_ == told_.front().last) told_.pop_front();
+  if (!followed_.empty() && answered_ >= followed_.front().first) {
+    const std::shared_ptr<TransferProgress> progress = followed_.front().progress;
+    if (answered_ == followed_.front().last) followed_.pop_front();
     progress->answered(time);
   }
   for (End& end : ends_) {

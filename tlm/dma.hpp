@@ -50,7 +50,7 @@ struct DmaJob {
   std::vector<Mark> marks{};  ///< ascending
   bool downwards = false;     ///< the last burst first; of one piece that is a whole number of bursts, each a
                               ///< row if it has values
-  std::shared_ptr<TransferProgress> progress{};  ///< told of each burst that is answered
+  std::shared_ptr<TransferProgress> progress{};  ///< notified of each burst that is answered
   /// For a reader that must not overtake a writer: bytes before `last_byte` of this job are requested when
   /// `needed(last_byte)` bursts of `behind` have been answered; with values, all rows that the burst touches
   /// must be in memory then.
@@ -136,12 +136,12 @@ class DmaEngine : public sc_core::sc_module, public Actor, private BusClient {
     sc_core::sc_time time;  // of the last answer, once `answers` have come
   };
   std::deque<End> ends_;
-  struct Told {           // by each of a job's answers
+  struct Followed {       // by each of a job's answers
     std::uint64_t first;  // its number
     std::uint64_t last;
     std::shared_ptr<TransferProgress> progress;
   };
-  std::deque<Told> told_;
+  std::deque<Followed> followed_;
   sc_core::sc_time last_answer_;
   std::uint64_t requested_ = 0;
   std::uint64_t answered_ = 0;
@@ -152,7 +152,7 @@ class DmaEngine : public sc_core::sc_module, public Actor, private BusClient {
 };
 
 /// Memory to stream: reads the bytes of its jobs in bursts, at most one request a cycle, as long as the FIFO
-/// has a place reserved for the answer. A token is one burst; values are the rows' bytes. Storage: the FIFO.
+/// has a slot reserved for the answer. A token is one burst; values are the rows' bytes. Storage: the FIFO.
 ///
 /// Values run ahead of time: a row is fetched by a functional access when its first burst is requested, so it
 /// must be in memory by the start of its job, or by the date that DmaJob::behind gives.

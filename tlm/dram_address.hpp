@@ -14,7 +14,7 @@ enum class DramMapping {
   kRowBankColumnGroup,  ///< "rbcg": as rbc, but bursts go to the bank groups in turn
 };
 
-struct DramPlace {
+struct DramLocation {
   std::uint32_t bank = 0;
   std::uint32_t row = 0;
 };
@@ -24,7 +24,7 @@ class DramAddress {
  public:
   DramAddress(const DramTiming& timing, DramMapping mapping);
 
-  DramPlace place(std::uint64_t address) const {
+  DramLocation locate(std::uint64_t address) const {
     const std::uint64_t above = row_bytes_.quotient(address);
     switch (mapping_) {
       case DramMapping::kRowBankColumn:
@@ -57,7 +57,7 @@ class DramAddress {
     int shift_;
   };
 
-  DramPlace at(std::uint64_t bank, std::uint64_t row) const {
+  DramLocation at(std::uint64_t bank, std::uint64_t row) const {
     return {static_cast<std::uint32_t>(banks_.remainder(bank)),
             static_cast<std::uint32_t>(rows_.remainder(row))};
   }

@@ -11,7 +11,7 @@ namespace parallax {
 namespace {
 
 // What plan_queue() knows of a bank, as bits.
-constexpr std::uint8_t kHit = 1;      // somebody wants its open row
+constexpr std::uint8_t kHit = 1;      // a burst of the queue wants its open row
 constexpr std::uint8_t kPrepare = 2;  // the oldest who wants another row has been seen
 
 template <class T>
@@ -55,9 +55,9 @@ DramController::DramController(const DramTiming& timing, const DramPolicy& polic
 bool DramController::plan_newest() {
   const std::size_t index = queue().entries.size() - 1;
   const Entry& entry = queue().entries[index];
-  const std::uint32_t number = entry.burst.place.bank;
+  const std::uint32_t number = entry.burst.location.bank;
   Clock clock = kNever;
-  const bool hit = banks_[number].open_row == std::int64_t{entry.burst.place.row};
+  const bool hit = banks_[number].open_row == std::int64_t{entry.burst.location.row};
   if (oldest_planned_) return hit;  // which can go no sooner
   if (hit) {
     if ((wanted_[number] & kPrepare) != 0) return false;  // the bank must not be closed any more
@@ -109,7 +109,7 @@ bool DramController::plan_oldest() {
   if (groups_.size() > 1 || queue.misses != 0 || queue.bursts == 0) return false;
   const Entry& oldest = queue.entries.front();
   plan_column(column_clock(oldest), 0);
-  return banks_[oldest.burst.place.bank].column < plan_.clock;
+  return banks_[oldest.burst.location.bank].column < plan_.clock;
 }
 
 // The earliest command for the queue that is being served; of several in one clock the oldest burst's.
@@ -122,11 +122,11 @@ void DramController::plan_queue() {
   std::size_t row_entry = 0;
   std::size_t hits = 0;
   for (std::size_t i = 0; i < entries.size(); ++i) {
-    const DramPlace& place = entries[i].burst.place;
-    if (banks_[place.bank].open_row != std::int64_t{place.row}) continue;
+    const DramLocation& location = entries[i].burst.location;
+    if (banks_[location.bank].open_row != std::int64_t{location.row}) continue;
     ++hits;
-    if (wanted_[place.bank] != 0) continue;  // an older burst for the same row can go as soon
-    wanted_[place.bank] = kHit;
+    if (wanted_[location.bank] != 0) continue;  // an older burst for the same row can go as soon
+    wanted_[location.bank] = kHit;
     if (const Clock clock = column_clock(entries[i]); clock < column) {
       column = clock;
       column_entry = i;
@@ -134,7 +134,7 @@ void DramController::plan_queue() {
   }
   queue().misses = static_cast<std::int64_t>(entries.size() - hits);
   for (std::size_t i = 0; i < entries.size() && hits < entries.size(); ++i) {
-    std::uint8_t& wanted = wanted_[entries[i].burst.place.bank];
+    std::uint8_t& wanted = wanted_[entries[i].burst.location.bank];
     if (wanted != 0) continue;  // its row is wanted, or an older burst prepares it
     wanted = kPrepare;
     if (const Clock clock = row_clock(entries[i]); clock < row) {
@@ -155,9 +155,9 @@ DramController::Clock DramController::column_clock(const Entry& entry) const {
   return std::max({command_free_, changed_ + 1, column_ready(entry.burst)});
 }
 
-// When the row of a burst can be opened, or the one in its place closed.
+// When the row of a burst can be opened, or the one that is open instead closed.
 DramController::Clock DramController::row_clock(const Entry& entry) const {
-  const std::uint32_t number = entry.burst.place.bank;
+  const std::uint32_t number = entry.burst.location.bank;
   const Bank& bank = banks_[number];
   return std::max({command_free_, changed_ + 1, bank.open_row < 0 ? activate_ready(number) : bank.precharge});
 }
@@ -172,7 +172,7 @@ void DramController::plan_row(Clock clock, std::size_t entry) {
   plan_.clock = clock;
   plan_.entry = entry;
   if (clock == kNever) return;  // there is none
-  const Bank& bank = banks_[queue().entries[entry].burst.place.bank];
+  const Bank& bank = banks_[queue().entries[entry].burst.location.bank];
   plan_.command = bank.open_row < 0 ? DramCommand::kActivate : DramCommand::kPrecharge;
 }
 
@@ -188,7 +188,7 @@ DramController::Plan DramController::plan_refresh(Clock at) const {
 }
 
 DramController::Clock DramController::column_ready(const Burst& burst) const {
-  const Bank& bank = banks_[burst.place.bank];
+  const Bank& bank = banks_[burst.location.bank];
   const Free& group = groups_[bank.group];
   const Clock others = burst.write ? std::max(any_.write, group.write) : std::max(any_.read, group.read);
   return std::max({bank.column, column_free_, others});
@@ -208,7 +208,7 @@ void DramController::issue(std::vector<Done>& done) {
     Queue& from = queue();
     Entry& entry = from.entries[plan_.entry];
     const Burst burst = entry.burst;
-    tell(at, plan_.command, burst.place);
+    notify(at, plan_.command, burst.location);
     --from.bursts;
     if (--entry.bursts == 0)
       from.entries.erase(from.entries.begin() + static_cast<std::ptrdiff_t>(plan_.entry));
@@ -223,7 +223,7 @@ void DramController::issue(std::vector<Done>& done) {
 // A command that is no read or write.
 void DramController::issue_row(const Plan& plan) {
   if (plan.command == DramCommand::kRefresh || plan.command == DramCommand::kPrechargeAll) {
-    tell(plan.clock, plan.command, {});
+    notify(plan.clock, plan.command, {});
     if (plan.command == DramCommand::kRefresh) return refresh(plan.clock);
     ++statistics_.precharges;
     for (Bank& bank : banks_) {
@@ -232,18 +232,18 @@ void DramController::issue_row(const Plan& plan) {
     refresh_free_ = plan.clock + timing_.rp_all;
     return;
   }
-  const DramPlace place = queue().entries[plan.entry].burst.place;
-  tell(plan.clock, plan.command, place);
-  if (plan.command == DramCommand::kActivate) return activate(plan.clock, place);
+  const DramLocation location = queue().entries[plan.entry].burst.location;
+  notify(plan.clock, plan.command, location);
+  if (plan.command == DramCommand::kActivate) return activate(plan.clock, location);
   ++statistics_.precharges;
-  precharge(plan.clock, banks_[place.bank]);
+  precharge(plan.clock, banks_[location.bank]);
 }
 
-void DramController::activate(Clock at, const DramPlace& place) {
+void DramController::activate(Clock at, const DramLocation& location) {
   ++statistics_.activates;
   rows_change();
-  Bank& bank = banks_[place.bank];
-  bank.open_row = place.row;
+  Bank& bank = banks_[location.bank];
+  bank.open_row = location.row;
   bank.column = at + timing_.rcd;
   bank.activate = at + timing_.rc;
   bank.precharge = at + timing_.ras;
@@ -260,7 +260,7 @@ void DramController::precharge(Clock at, Bank& bank) {
 }
 
 void DramController::column(Clock at, const Burst& burst, std::vector<Done>& done) {
-  Bank& bank = banks_[burst.place.bank];
+  Bank& bank = banks_[burst.location.bank];
   Free& group = groups_[bank.group];
   const Clock data = at + (burst.write ? timing_.cwl : timing_.cl) + timing_.burst_clocks();
   const auto not_before = [](Clock& free, Clock clock) { free = std::max(free, clock); };
@@ -296,16 +296,16 @@ void DramController::lose_time(Clock at, Clock& column_free, std::int64_t& lost)
 bool DramController::serve_alone(const Burst& burst, std::uint64_t number, Clock clock, Clock limit,
                                  std::vector<Done>& done) {
   limit = std::min(limit, refresh_due_);
-  const std::size_t places = burst.write ? policy_.write_queue : policy_.read_queue;
-  if (!idle() || number > places || command_free_ >= limit) return false;
+  const std::size_t slots = burst.write ? policy_.write_queue : policy_.read_queue;
+  if (!idle() || number > slots || command_free_ >= limit) return false;
   // The dates, by the same rules as those of the queue, for one bank and one row.
-  const Bank& bank = banks_[burst.place.bank];
+  const Bank& bank = banks_[burst.location.bank];
   Clock next = std::max(command_free_, clock + 1);
   Clock close = -1;
   Clock open = -1;
   Clock column_at = column_ready(burst);
-  if (bank.open_row != std::int64_t{burst.place.row}) {
-    Clock ready = activate_ready(burst.place.bank);
+  if (bank.open_row != std::int64_t{burst.location.row}) {
+    Clock ready = activate_ready(burst.location.bank);
     if (bank.open_row >= 0) {
       close = std::max(next, bank.precharge);
       next = close + 1;
@@ -328,16 +328,16 @@ bool DramController::serve_alone(const Burst& burst, std::uint64_t number, Clock
     column_at = at + pace;
   }
   if (close >= 0) {
-    tell(close, DramCommand::kPrecharge, burst.place);
+    notify(close, DramCommand::kPrecharge, burst.location);
     ++statistics_.precharges;
-    precharge(close, banks_[burst.place.bank]);
+    precharge(close, banks_[burst.location.bank]);
   }
   if (open >= 0) {
-    tell(open, DramCommand::kActivate, burst.place);
-    activate(open, burst.place);
+    notify(open, DramCommand::kActivate, burst.location);
+    activate(open, burst.location);
   }
   for (const Clock at : columns_) {
-    tell(at, burst.write ? DramCommand::kWrite : DramCommand::kRead, burst.place);
+    notify(at, burst.write ? DramCommand::kWrite : DramCommand::kRead, burst.location);
     column(at, burst, done);
   }
   writing_ = burst.write;

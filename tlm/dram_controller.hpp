@@ -62,7 +62,7 @@ class DramController {
   static constexpr Clock kNever = std::numeric_limits<Clock>::max();
 
   struct Burst {
-    DramPlace place;
+    DramLocation location;
     std::uint64_t tag = 0;
     bool write = false;
   };
@@ -76,7 +76,7 @@ class DramController {
 
   DramController(const DramTiming& timing, const DramPolicy& policy);
 
-  /// Whether the queue has a place for another one.
+  /// Whether the queue has a slot for another one.
   bool room(bool write) const {
     return write ? writes_.bursts < policy_.write_queue : reads_.bursts < policy_.read_queue;
   }
@@ -92,7 +92,7 @@ class DramController {
       return;
     }
     queue.entries.emplace_back(burst);
-    if (queue.misses >= 0 && banks_[burst.place.bank].open_row != std::int64_t{burst.place.row})
+    if (queue.misses >= 0 && banks_[burst.location.bank].open_row != std::int64_t{burst.location.row})
       ++queue.misses;
     planned_ = planned_ && direction() == plan_writing_ && (burst.write != plan_writing_ || plan_newest());
   }
@@ -126,14 +126,14 @@ class DramController {
     std::size_t bursts = 1;
 
     explicit Entry(const Burst& first) {
-      burst.place.bank = first.place.bank;
-      burst.place.row = first.place.row;
+      burst.location.bank = first.location.bank;
+      burst.location.row = first.location.row;
       burst.tag = first.tag;
       burst.write = first.write;
     }
     bool joins(const Burst& next) const {
-      return burst.tag == next.tag && burst.place.bank == next.place.bank &&
-             burst.place.row == next.place.row;
+      return burst.tag == next.tag && burst.location.bank == next.location.bank &&
+             burst.location.row == next.location.row;
     }
   };
   struct Queue {
@@ -183,10 +183,10 @@ class DramController {
   void issue_until(Clock limit, std::vector<Done>& done);
   void issue(std::vector<Done>& done);
   void issue_row(const Plan& plan);
-  void tell(Clock at, DramCommand command, const DramPlace& place) const {
-    for (DramListener* listener : listeners_) listener->command(at, command, place.bank, place.row);
+  void notify(Clock at, DramCommand command, const DramLocation& location) const {
+    for (DramListener* listener : listeners_) listener->command(at, command, location.bank, location.row);
   }
-  void activate(Clock at, const DramPlace& place);
+  void activate(Clock at, const DramLocation& location);
   void precharge(Clock at, Bank& bank);
   void column(Clock at, const Burst& burst, std::vector<Done>& done);
   void lose_time(Clock at, Clock& column_free, std::int64_t& lost) const;

@@ -64,7 +64,7 @@ class Replay {
     for (std::uint64_t at = begin; at < end; at += burst_) {
       wait_for_room(request.write);
       run_until(next_ + 1);
-      controller_.submit({address_.place(at), tag, request.write}, next_);
+      controller_.submit({address_.locate(at), tag, request.write}, next_);
       ++next_;
     }
   }

@@ -42,7 +42,7 @@ double DramScheduler::usable_bandwidth() const {
 
 void DramScheduler::serve_until(Picoseconds date, bool inclusive, MemoryService& service) {
   const Clock clock = clock_at_or_after(date);
-  if (beats_.size() > kBeats) count_beats(clock);  // or they pile up until somebody asks
+  if (beats_.size() > kBeats) count_beats(clock);  // or they pile up until the statistics are read
   const Clock limit = clock + (inclusive && date_of(clock) == date ? 1 : 0);
   if (limit <= decided_) return;
   enter_until(limit, service);
@@ -112,7 +112,7 @@ bool DramScheduler::choose(Clock clock) {
   return false;
 }
 
-// Nobody can enter in `clock`: the first later one in which somebody might.
+// No burst can enter in `clock`: the first later one in which one might.
 DramScheduler::Clock DramScheduler::next_change(Clock clock) {
   Clock next = controller_.next_command();
   if (next != DramController::kNever) ++next;
@@ -141,11 +141,11 @@ bool DramScheduler::serve_alone(std::size_t id, Clock limit, MemoryService& serv
   const ::tlm::tlm_generic_payload& payload = *queues_->head(id).payload;
   const std::uint64_t bursts = bursts_of(payload);
   const std::uint64_t first = payload.get_address() / burst_bytes_ * burst_bytes_;
-  const DramPlace place = address_.place(first);
+  const DramLocation location = address_.locate(first);
   if (bursts > 1) {
     if (memory_.mapping == DramMapping::kRowBankColumnGroup) return false;
-    const DramPlace last = address_.place(first + (bursts - 1) * burst_bytes_);
-    if (last.bank != place.bank || last.row != place.row) return false;
+    const DramLocation last = address_.locate(first + (bursts - 1) * burst_bytes_);
+    if (last.bank != location.bank || last.row != location.row) return false;
   }
   for (std::size_t other = 0; other < arrivals_.size(); ++other) {
     if (other != id) limit = std::min(limit, arrivals_[other] + (arrivals_[other] < limit ? 1 : 0));
@@ -154,7 +154,7 @@ bool DramScheduler::serve_alone(std::size_t id, Clock limit, MemoryService& serv
     limit = std::min(limit, std::max(clock_at_or_after(second), next_ + static_cast<Clock>(bursts)) + 1);
   }
   const bool write = payload.is_write();
-  if (!controller_.serve_alone({place, id, write}, bursts, next_, limit, done_)) return false;
+  if (!controller_.serve_alone({location, id, write}, bursts, next_, limit, done_)) return false;
   begins_work(next_);
   next_ += static_cast<Clock>(bursts);
   for (const DramController::Done& done : done_) add_beats(done.data_end, id);
@@ -185,7 +185,7 @@ void DramScheduler::enter(std::size_t id, MemoryService& service) {
   const bool write = port.write;
   if (controller_.idle()) begins_work(next_);
   const std::uint64_t number = write ? 0 : port.first_read + port.reads.size() - 1;
-  controller_.submit({address_.place(port.next), number * kPorts + id, write}, next_);
+  controller_.submit({address_.locate(port.next), number * kPorts + id, write}, next_);
   port.next += burst_bytes_;
   ++next_;
   if (--port.bursts_left > 0) return;
@@ -245,7 +245,7 @@ Picoseconds DramScheduler::next_answer() {
   return next == DramController::kNever ? MemoryQueues::kNever : date_of(next + memory_.latency);
 }
 
-Picoseconds DramScheduler::next_place() { return date_of(entry_bound() + 1); }
+Picoseconds DramScheduler::next_slot() { return date_of(entry_bound() + 1); }
 
 void DramScheduler::add_beats(Clock end, std::size_t id) {
   const Clock begin = end - burst_clocks_;

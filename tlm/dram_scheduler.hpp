@@ -23,7 +23,7 @@ struct DramMemory {
 
 /// Requests are cut into the devices' bursts, of which one enters the controller in a clock. The arbiter
 /// gives a request the way into the controller until all its bursts are in, or until the controller's queue
-/// for its direction is full while another port has something for the other one. The request's place at the
+/// for its direction is full while another port has something for the other one. The request's slot at the
 /// port is free in the clock after its last burst has entered.
 ///
 /// A write is posted: it is answered `latency` clocks after the clock in which its last burst entered. A read
@@ -36,13 +36,13 @@ class DramScheduler final : public MemoryScheduler {
   void bind(MemoryQueues& queues) override;
   void serve_until(Picoseconds date, bool inclusive, MemoryService& service) override;
   Picoseconds next_answer() override;
-  Picoseconds next_place() override;
+  Picoseconds next_slot() override;
 
   Cycles bus_taken(std::size_t port, Picoseconds date) override;
   Cycles at_work(Picoseconds date) override;
   Cycles cycle_at_or_after(Picoseconds date) const override { return Cycles(clock_at_or_after(date)); }
   double seconds(Cycles cycles) const override {
-    return static_cast<double>(cycles.count()) * static_cast<double>(memory_.timing.clock_period_ps) * 1e-12;
+    return cycles.real() * static_cast<double>(memory_.timing.clock_period_ps) * 1e-12;
   }
   double usable_bandwidth() const override;
 
@@ -63,16 +63,14 @@ class DramScheduler final : public MemoryScheduler {
     Ring<Read> reads;               // in order
     Cycles bus;                     // that has passed
   };
-  static constexpr std::size_t kBeats = 1024;  // kept before they are counted
+  static constexpr std::size_t kBeats = 1024;  // stored before they are counted
   struct Beats {                               // on the data bus, not passed yet, without a pause
     Clock begin;
     Clock end;
     std::size_t port;
   };
 
-  Clock clock_at_or_after(Picoseconds date) const {
-    return static_cast<Clock>(rate_.ceil(static_cast<std::uint64_t>(date.count())));
-  }
+  Clock clock_at_or_after(Picoseconds date) const { return static_cast<Clock>(rate_.ceil(date.size())); }
   Picoseconds date_of(Clock clock) const { return Picoseconds(clock * period_); }
   void enter_until(Clock limit, MemoryService& service);
   bool choose(Clock clock);

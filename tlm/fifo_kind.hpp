@@ -5,11 +5,11 @@
 
 namespace parallax {
 
-/// Which circuit a stream's FIFO is, that is by how many edges a token and a place are delayed. With w the
+/// Which circuit a stream's FIFO is, that is by how many edges a token and a slot are delayed. With w the
 /// edge that writes token i, and r the edge that reads token i - depth:
 enum class FifoKind {
   /// Described by its two offsets, FifoConfig::write_to_read and read_to_write: token i is readable at w +
-  /// write_to_read, its place writable at r + read_to_write. Any FIFO whose delays do not depend on how full
+  /// write_to_read, its slot writable at r + read_to_write. Any FIFO whose delays do not depend on how full
   /// it is
   /// can be described so; the default, (1, 1), is a registered one. An offset of 0 is a combinational path
   /// and
@@ -27,7 +27,7 @@ enum class FifoKind {
   /// flags are
   /// derived from without a further one. The first edge of the other clock strictly after w (or r) captures
   /// the
-  /// pointer; the token is readable, the place writable, `synchroniser_stages` edges later. Also where both
+  /// pointer; the token is readable, the slot writable, `synchroniser_stages` edges later. Also where both
   /// clocks
   /// have the same frequency, or are one.
   kAsynchronous,

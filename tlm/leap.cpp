@@ -115,7 +115,8 @@ void Leap::scan(Member& member) {
   const std::size_t segments = schedule.segments().size();
   const Schedule::Segment* const all = schedule.segments().data();
   const Phase* const phases = schedule.phases().data();
-  // The cursor, a variable each: what has just been written in part must not be read as one.
+  // The cursor, a variable each: a Position that is copied as one word after a part of it was written is a
+  // store-forwarding stall.
   std::size_t number = member.cursor.segment;
   std::uint64_t pass = member.cursor.pass;
   std::uint32_t phase_number = member.cursor.phase;
@@ -143,13 +144,13 @@ void Leap::scan(Member& member) {
       }
       Event& event = member.events.add();
       event.firing = scanned;
-      event.consume = static_cast<PortMask>(loose);
-      event.produce = static_cast<PortMask>(loose >> 8U);
+      event.consume = mask(loose & 0xffU);
+      event.produce = mask(loose >> 8U);
       event.pending = false;
-      event.place.segment = number;
-      event.place.pass = pass;
-      event.place.phase = phase_number;
-      event.place.count = count;
+      event.position.segment = number;
+      event.position.pass = pass;
+      event.position.phase = phase_number;
+      event.position.count = count;
       ++scanned;
       if (++count < phase.count) continue;
     } else if (segment.phase_count == 1) {  // all passes are alike
@@ -172,7 +173,7 @@ void Leap::scan(Member& member) {
   member.scanned = scanned;
 }
 
-// Firings that keep to the pattern and whose irregular tokens and places are known to be there in time.
+// Firings that keep to the pattern and whose irregular tokens and slots are known to be there in time.
 // `outside`: it may become more when more is known.
 std::uint64_t Leap::possible_firings(Member& member, bool& outside) {
   const std::uint64_t now = member.base + member.done;
@@ -223,9 +224,9 @@ bool Leap::write_pending(Member& member) {
 
 Leap::Check Leap::check(Member& member, Event& event) {
   const Stage& stage = *member.stage;
-  const auto [place, later] = in_period(member, event.firing);
-  const Cycles free = member.observed[place].free + later;
-  event.start = member.observed[place].start + later;
+  const auto [index, later] = in_period(member, event.firing);
+  const Cycles free = member.observed[index].free + later;
+  event.start = member.observed[index].start + later;
   const Cycles written = event.start + Cycles(stage.latency_);
   for (const Link* link : member.loose_in) {
     if (!contains(event.consume, link->reader_port)) continue;
@@ -269,7 +270,7 @@ Leap::Check Leap::check(Member& member, Event& event) {
   return Check::kInTime;
 }
 
-// Whether the stream holds nobody back any more, however many periods.
+// Whether the stream holds no stage back any more, however many periods.
 bool Leap::is_sure(const Link& link) {
   if (link.reads != link.writes) return false;
   if (link.reads == 0) return true;
@@ -277,7 +278,7 @@ bool Leap::is_sure(const Link& link) {
          (link.writes_bind || link.sure_writes >= link.base_read + link.stream->depth());
 }
 
-// Periods, of those wanted, for which the stream is known to hold nobody back more than in the period
+// Periods, of those wanted, for which the stream is known to hold no stage back more than in the period
 // observed.
 std::uint64_t Leap::possible_periods(Link& link, std::uint64_t wanted) {
   const StreamBase& stream = *link.stream;
@@ -291,8 +292,8 @@ std::uint64_t Leap::possible_periods(Link& link, std::uint64_t wanted) {
     const std::uint64_t end = std::min(link.base_read + (periods_ + periods) * link.reads, link.base_written);
     for (; link.sure_reads < end; ++link.sure_reads) {
       const std::uint64_t pass = (link.sure_reads - link.base_read) / link.reads;
-      const std::uint64_t place = (link.sure_reads - link.base_read) % link.reads;
-      const Cycles needed = stream.read_watch_.ready[place] + Cycles(period_ * as_signed(pass + 1));
+      const std::uint64_t index = (link.sure_reads - link.base_read) % link.reads;
+      const Cycles needed = stream.read_watch_.ready[index] + Cycles(period_ * as_signed(pass + 1));
       if (stream.forward(stream.write_date(link.sure_reads)) > needed) {
         periods = std::min(periods, pass - periods_);
         break;
@@ -307,8 +308,8 @@ std::uint64_t Leap::possible_periods(Link& link, std::uint64_t wanted) {
     for (; link.sure_writes < end; ++link.sure_writes) {
       if (link.sure_writes < stream.depth()) continue;
       const std::uint64_t pass = (link.sure_writes - link.base_written) / link.writes;
-      const std::uint64_t place = (link.sure_writes - link.base_written) % link.writes;
-      const Cycles needed = stream.write_watch_.ready[place] + Cycles(period_ * as_signed(pass + 1));
+      const std::uint64_t index = (link.sure_writes - link.base_written) % link.writes;
+      const Cycles needed = stream.write_watch_.ready[index] + Cycles(period_ * as_signed(pass + 1));
       if (stream.backward(stream.read_date(link.sure_writes - stream.depth())) > needed) {
         periods = std::min(periods, pass - periods_);
         break;
@@ -350,13 +351,13 @@ void Leap::commit_events(Member& member, std::uint64_t until) {
     stage.note_write(stage.frame_number_, written);
   }
   if (last == nullptr) return;
-  member.place = last->place;  // its place in the ring is not taken before the next scan
-  member.place_firing = last->firing;
+  member.position = last->position;  // its slot in the ring is not taken before the next scan
+  member.position_firing = last->firing;
 }
 
 Cycles Leap::start_of(const Member& member, std::uint64_t firing) const {
-  const auto [place, later] = in_period(member, firing);
-  return member.observed[place].start + later;
+  const auto [index, later] = in_period(member, firing);
+  return member.observed[index].start + later;
 }
 
 // Which firing of the period observed it is like, and how much later it comes.

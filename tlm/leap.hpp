@@ -15,16 +15,16 @@ namespace parallax {
 /// of T cycles, n periods are added to their state at once instead of being gone through token by token.
 ///
 /// Why every date stays exact. The dates follow from a state: what a stage still has to do, the dates in its
-/// pipeline, and the dates of the tokens and free places in the streams. observe() lets every stage go
+/// pipeline, and the dates of the tokens and free slots in the streams. observe() lets every stage go
 /// through one period, firing by firing as always, and compares the state with the one before: if all that
 /// can still make a difference is the same but T cycles later, then the next period is this one, T cycles
 /// later, as long as the schedules go on alike. A date that cannot make a difference (a token that was there
-/// long before it is read, a place that was free long before it is written) may differ; it is looked at, one
+/// long before it is read, a slot that was free long before it is written) may differ; it is looked at, one
 /// by one, before it is used.
 ///
 /// What is not periodic takes part one by one: streams from or to kernel time or another clock, and those
 /// that a schedule reads or writes at irregular firings (bursts, words of the map). Their dates must not hold
-/// anybody back; a leap ends before the firing at which one would.
+/// any stage back; a leap ends before the firing at which one would.
 class Leap {
  public:
   Leap(Dataflow& dataflow, const ClockDomain& clock) : dataflow_(dataflow), clock_(clock) {}
@@ -54,8 +54,8 @@ class Leap {
  private:
   struct Link {
     StreamBase* stream;
-    int writer = -1;  // index of the stage at each end, -1: none of this clock's
-    int reader = -1;
+    bool written = false;  // by a stage of this clock,
+    bool read = false;     // likewise
     PortMask writer_port = 0;
     PortMask reader_port = 0;
     bool core = false;  // takes part in the periodic motion
@@ -63,7 +63,7 @@ class Leap {
     std::uint64_t writes = 0, reads = 0;
     Cycles blocked, starved;
     std::vector<std::pair<std::uint64_t, std::uint64_t>> levels;  // (level, cycles) counted
-    // What the stream's ends can do without asking: tokens before `sure_reads` are there, and places before
+    // What the stream's ends can do without asking: tokens before `sure_reads` are there, and slots before
     // `sure_writes` free, in time or as in the period before.
     bool reads_bind = false, writes_bind = false;
     std::uint64_t base_read = 0, base_written = 0;  // at the end of the period observed
@@ -79,12 +79,12 @@ class Leap {
     std::uint64_t firing;
     PortMask consume, produce;
     bool pending;  // it is not known when there is room for what it writes
-    Stage::Position place;
+    Stage::Position position;
     Cycles start;  // once it is checked
   };
   struct Member {
     Stage* stage;
-    std::vector<int> in, out;                // links
+    std::vector<std::size_t> in, out;        // links
     std::vector<Link*> loose_in, loose_out;  // of these, those that are not core
     bool takes_part = false;                 // has a core port
     bool active = false;
@@ -106,9 +106,9 @@ class Leap {
     std::uint64_t scanned = 0;
     bool ended = false;  // the pattern ends at `scanned`
     Ring<Event> events;
-    std::size_t checked = 0;         // of the events, from the front: known to be in time
-    Stage::Position place;           // in the schedule of the last event gone over,
-    std::uint64_t place_firing = 0;  // which was this firing; 0: none
+    std::size_t checked = 0;            // of the events, from the front: known to be in time
+    Stage::Position position;           // in the schedule of the last event gone over,
+    std::uint64_t position_firing = 0;  // which was this firing; 0: none
     StageStatistics before;
     std::uint64_t entered_before = 0, left_before = 0;
     Cycles free_before, last_write_before;
@@ -152,7 +152,7 @@ class Leap {
   std::vector<Member> members_;
   std::vector<Link> links_;
   std::vector<Member*> irregular_, regular_;  // active members that take part: with and without loose links
-  std::vector<Link*> open_;                   // core links that may still hold somebody back
+  std::vector<Link*> open_;                   // core links that may still hold a stage back
   std::vector<Cycles> model_;                 // dates of one period; a member for its memory only
   bool holding_ = false;
   bool wide_ = false;

@@ -14,8 +14,9 @@ constexpr std::uint64_t kLargestUnit =
 constexpr std::uint64_t kAlways = std::numeric_limits<std::uint64_t>::max();
 
 inline std::int64_t as_signed(std::uint64_t count) { return static_cast<std::int64_t>(count); }
-inline PortMask without(PortMask mask, PortMask core) { return static_cast<PortMask>(mask & ~core); }
-inline PortMask within(PortMask mask, PortMask core) { return static_cast<PortMask>(mask & core); }
+inline PortMask mask(unsigned ports) { return static_cast<PortMask>(ports); }
+inline PortMask without(PortMask ports, PortMask core) { return mask(ports & ~unsigned{core}); }
+inline PortMask within(PortMask ports, PortMask core) { return mask(unsigned{ports} & core); }
 inline bool contains(PortMask mask, PortMask port) { return (mask & port) != 0; }
 
 inline bool idle(const Phase& phase) { return phase.consume == 0 && phase.produce == 0; }

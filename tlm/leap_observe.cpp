@@ -46,7 +46,7 @@ bool Leap::observe() {
       member.base = stage.statistics_.firings;
       member.last_event_write = stage.last_write_;
       member.claimed_pending = 0;
-      member.place_firing = 0;
+      member.position_firing = 0;
       member.done = member.sure_periods = 0;
       same = same && repeats(member);
       while (same && !member.ended && member.scanned < member.base) scan(member);
@@ -199,7 +199,7 @@ bool Leap::reads_repeat(Link& link) const {
   return true;
 }
 
-// The same for the places to write.
+// The same for the slots to write.
 bool Leap::writes_repeat(Link& link) const {
   const StreamBase& stream = *link.stream;
   link.writes_bind = stream.write_watch_.binds;

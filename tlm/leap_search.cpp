@@ -28,27 +28,24 @@ void Leap::build(const std::vector<Stage*>& stages) {
   const auto link_of = [this](StreamBase* stream) {
     const auto found =
         std::find_if(links_.begin(), links_.end(), [&](const Link& link) { return link.stream == stream; });
-    if (found != links_.end()) return static_cast<int>(found - links_.begin());
+    if (found != links_.end()) return static_cast<std::size_t>(found - links_.begin());
     links_.emplace_back();
     links_.back().stream = stream;
-    return static_cast<int>(links_.size() - 1);
+    return links_.size() - 1;
   };
-  for (std::size_t m = 0; m < members_.size(); ++m) {
-    Member& member = members_[m];
+  for (Member& member : members_) {
     for (unsigned port = 0; port < member.stage->inputs_.count; ++port) {
       for (StreamBase* stream : member.stage->inputs_.of_mask[1u << port]) {
-        const int link = link_of(stream);
-        links_[static_cast<std::size_t>(link)].reader = static_cast<int>(m);
-        links_[static_cast<std::size_t>(link)].reader_port = static_cast<PortMask>(1u << port);
-        member.in.push_back(link);
+        member.in.push_back(link_of(stream));
+        links_[member.in.back()].read = true;
+        links_[member.in.back()].reader_port = mask(1u << port);
       }
     }
     for (unsigned port = 0; port < member.stage->outputs_.count; ++port) {
       for (StreamBase* stream : member.stage->outputs_.of_mask[1u << port]) {
-        const int link = link_of(stream);
-        links_[static_cast<std::size_t>(link)].writer = static_cast<int>(m);
-        links_[static_cast<std::size_t>(link)].writer_port = static_cast<PortMask>(1u << port);
-        member.out.push_back(link);
+        member.out.push_back(link_of(stream));
+        links_[member.out.back()].written = true;
+        links_[member.out.back()].writer_port = mask(1u << port);
       }
     }
   }
@@ -73,24 +70,24 @@ bool Leap::attempt() {
 // and the streams that go along with it. Where a stage touches a stream irregularly, the stream is not core,
 // for either end.
 bool Leap::classify() {
-  for (Link& link : links_) link.core = link.writer >= 0 && link.reader >= 0 && link.stream->same_clock_;
+  for (Link& link : links_) link.core = link.written && link.read && link.stream->same_clock_;
   for (bool changed = true; changed;) {
     changed = false;
     for (Member& member : members_) {
       if (!member.active) continue;
-      const auto core_ports = [&](const std::vector<int>& links, PortMask Link::*port) {
+      const auto core_ports = [&](const std::vector<std::size_t>& links, PortMask Link::*port) {
         unsigned all = 0;
         unsigned off = 0;
-        for (const int l : links) {
-          const Link& link = links_[static_cast<std::size_t>(l)];
+        for (const std::size_t l : links) {
+          const Link& link = links_[l];
           all |= link.*port;
           if (!link.core) off |= link.*port;
         }
-        return static_cast<PortMask>(all & ~off);
+        return mask(all & ~off);
       };
-      const auto demote = [&](const std::vector<int>& links, PortMask Link::*port, PortMask kept) {
-        for (const int l : links) {
-          Link& link = links_[static_cast<std::size_t>(l)];
+      const auto demote = [&](const std::vector<std::size_t>& links, PortMask Link::*port, PortMask kept) {
+        for (const std::size_t l : links) {
+          Link& link = links_[l];
           if (link.core && !contains(link.*port, kept)) {
             link.core = false;
             changed = true;
@@ -113,10 +110,10 @@ bool Leap::classify() {
   regular_.clear();
   for (Member& member : members_) {
     if (!member.active || !member.takes_part) continue;
-    const auto loose = [this](const std::vector<int>& links, std::vector<Link*>& found) {
+    const auto loose = [this](const std::vector<std::size_t>& links, std::vector<Link*>& found) {
       found.clear();
-      for (const int l : links) {
-        Link& link = links_[static_cast<std::size_t>(l)];
+      for (const std::size_t l : links) {
+        Link& link = links_[l];
         if (!link.core) found.push_back(&link);
       }
     };
@@ -150,16 +147,16 @@ bool Leap::find_unit(Member& member, PortMask& mixed_in, PortMask& mixed_out) {
     }
     if (segment.repeat - stage.next_.pass < 3) return false;
     member.unit = 0;
-    PortMask consume = 0;
-    PortMask produce = 0;
+    unsigned consume = 0;
+    unsigned produce = 0;
     for (const Phase* phase = phases; phase != phases + segment.phase_count; ++phase) {
       member.unit += phase->count;
-      consume = static_cast<PortMask>(consume | phase->consume);
-      produce = static_cast<PortMask>(produce | phase->produce);
+      consume |= phase->consume;
+      produce |= phase->produce;
     }
-    member.common = {1, 1, consume, produce};
-    return member.unit <= kLargestUnit && without(consume, member.core_in) == 0 &&
-           without(produce, member.core_out) == 0;
+    member.common = fires().reads(consume).writes(produce);
+    return member.unit <= kLargestUnit && (consume & ~unsigned{member.core_in}) == 0 &&
+           (produce & ~unsigned{member.core_out}) == 0;
   }
   unsigned any_in = 0, any_out = 0;
   unsigned all_in = 0xff, all_out = 0xff;
@@ -177,8 +174,8 @@ bool Leap::find_unit(Member& member, PortMask& mixed_in, PortMask& mixed_out) {
     looked += count;
     stage.skip(at, count);
   }
-  mixed_in = within(static_cast<PortMask>(any_in & ~all_in), member.core_in);
-  mixed_out = within(static_cast<PortMask>(any_out & ~all_out), member.core_out);
+  mixed_in = within(mask(any_in & ~all_in), member.core_in);
+  mixed_out = within(mask(any_out & ~all_out), member.core_out);
   return true;
 }
 

@@ -31,9 +31,9 @@ void Leap::materialize(Member& member, std::uint64_t periods) {
   Stage& stage = *member.stage;
   const Cycles later(period_ * as_signed(periods));
   const std::uint64_t first = stage.statistics_.firings;
-  if (member.place_firing > first) {
-    stage.next_ = member.place;
-    stage.skip(stage.next_, first + periods * member.firings - member.place_firing);
+  if (member.position_firing > first) {
+    stage.next_ = member.position;
+    stage.skip(stage.next_, first + periods * member.firings - member.position_firing);
   } else {
     stage.skip(stage.next_, periods * member.firings);
   }
@@ -88,12 +88,12 @@ void Leap::materialize(Link& link, std::uint64_t periods) {
     for (std::uint64_t i = from - step; i < from; ++i) model.push_back(dates[i & stream.mask_]);
     const std::uint64_t added = periods * step;
     const std::uint64_t begin = added - std::min<std::uint64_t>(added, stream.mask_ + 1);
-    std::uint64_t place = begin % step;
+    std::uint64_t index = begin % step;
     Cycles shift(period_ * as_signed(begin / step + 1));
     for (std::uint64_t i = begin; i < added; ++i) {
-      dates[(from + i) & stream.mask_] = model[place] + shift;
-      if (++place == step) {
-        place = 0;
+      dates[(from + i) & stream.mask_] = model[index] + shift;
+      if (++index == step) {
+        index = 0;
         shift += Cycles(period_);
       }
     }
@@ -129,7 +129,7 @@ void Leap::materialize(Link& link, std::uint64_t periods) {
   }
 }
 
-// Lets streams whose fill repeats itself tell it from here on.
+// Lets streams whose fill repeats itself say so from here on.
 void Leap::announce() {
   for (Link& link : links_) {
     if (!link.core || link.reads != link.writes || link.reads == 0) continue;
@@ -152,8 +152,8 @@ void Leap::release() {
   for (Member& member : members_) {
     if (member.active && !member.takes_part) continue;
     // Woken, each says anew what it waits for.
-    for (const int l : member.in) links_[static_cast<std::size_t>(l)].stream->reader_waits_ = false;
-    for (const int l : member.out) links_[static_cast<std::size_t>(l)].stream->writer_waits_ = false;
+    for (const std::size_t l : member.in) links_[l].stream->reader_waits_ = false;
+    for (const std::size_t l : member.out) links_[l].stream->writer_waits_ = false;
     dataflow_.release(*member.stage);
     member.looks_still = 0;
   }

@@ -10,7 +10,7 @@
 namespace parallax {
 
 /// The listeners of one part: any number, notified in the order in which they were added. Without any it is a
-/// null pointer, so that a token that nobody listens to costs one test.
+/// null pointer, so that a token without a listener costs one test.
 template <class Listener>
 class Listeners {
  public:

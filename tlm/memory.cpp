@@ -20,9 +20,7 @@ Picoseconds date(const sc_core::sc_time& time) { return Picoseconds(time.value()
 
 Picoseconds present() { return date(sc_core::sc_time_stamp()); }
 
-sc_core::sc_time time(Picoseconds date) {
-  return sc_core::sc_time::from_value(static_cast<std::uint64_t>(date.count()));
-}
+sc_core::sc_time time(Picoseconds date) { return sc_core::sc_time::from_value(date.size()); }
 
 }  // namespace
 
@@ -33,8 +31,8 @@ Memory::Memory(const sc_core::sc_module_name& name, const MemoryTargetConfig& co
   if (scheduler_ == nullptr) throw std::invalid_argument("a memory needs a scheduler");
   if (config.queue_depth < 1) throw UserError("memory.queue_depth = 0: must be at least 1");
   if (config.holds_data) {
-    // calloc: pages that nobody writes take no memory.
-    bytes_.reset(static_cast<std::uint8_t*>(std::calloc(static_cast<std::size_t>(config.size.count()), 1)));
+    // calloc: pages that are not written take no memory.
+    bytes_.reset(static_cast<std::uint8_t*>(std::calloc(config.size.size(), 1)));
     if (bytes_ == nullptr) {
       throw UserError(fmt::format("this computer cannot hold a memory of {} bytes", config.size.count()));
     }
@@ -146,7 +144,7 @@ unsigned Memory::transport_dbg(int, ::tlm::tlm_generic_payload& payload) {
 }
 
 bool Memory::access(::tlm::tlm_generic_payload& payload) const {
-  const auto size = static_cast<std::uint64_t>(config_.size.count());
+  const auto size = config_.size.size();
   if (payload.get_address() > size || payload.get_data_length() > size - payload.get_address()) {
     payload.set_response_status(::tlm::TLM_ADDRESS_ERROR_RESPONSE);
     return false;
@@ -166,9 +164,9 @@ bool Memory::access(::tlm::tlm_generic_payload& payload) const {
   }
   payload.set_response_status(::tlm::TLM_OK_RESPONSE);
   if (traffic_only) return true;
-  std::uint8_t* place = bytes_.get() + payload.get_address();
-  if (payload.is_read()) std::memcpy(payload.get_data_ptr(), place, payload.get_data_length());
-  if (payload.is_write()) std::memcpy(place, payload.get_data_ptr(), payload.get_data_length());
+  std::uint8_t* bytes = bytes_.get() + payload.get_address();
+  if (payload.is_read()) std::memcpy(payload.get_data_ptr(), bytes, payload.get_data_length());
+  if (payload.is_write()) std::memcpy(bytes, payload.get_data_ptr(), payload.get_data_length());
   return true;
 }
 
@@ -227,9 +225,9 @@ void Memory::begin_response(const Answer& answer, Picoseconds now) {
   Port& port = ports_[answer.port];
   const Picoseconds at = std::max({now, answer.ready, port.answered_until});
   count_answers(port, now);
-  Told& told = port.told.add();
-  told.date = at;
-  told.latency = at - answer.request.arrival;
+  EarlyAnswer& early = port.early.add();
+  early.date = at;
+  early.latency = at - answer.request.arrival;
   sc_core::sc_time delay = time(at - now);
   if (answer.request.blocking != nullptr) {
     answer.request.blocking->notify(delay);
@@ -247,10 +245,10 @@ void Memory::begin_response(const Answer& answer, Picoseconds now) {
   answer.request.payload->release();
 }
 
-// Counts the answers that were told ahead of their dates and are there now.
+// Counts the answers that were given ahead of their dates and are there now.
 void Memory::count_answers(Port& port, Picoseconds now) const {
-  for (; !port.told.empty() && port.told.front().date <= now; port.told.pop_front()) {
-    const sc_core::sc_time latency = time(port.told.front().latency);
+  for (; !port.early.empty() && port.early.front().date <= now; port.early.pop_front()) {
+    const sc_core::sc_time latency = time(port.early.front().latency);
     port.statistics.latency_sum += latency;
     port.statistics.latency_largest = std::max(port.statistics.latency_largest, latency);
   }
@@ -265,9 +263,9 @@ void Memory::wake_in_time() {
   }
   if (queues_.any_refused()) {
     const Picoseconds now = present();
-    const Picoseconds place = scheduler_->next_place();
-    inclusive_ = place <= now;
-    wake_at(std::max(place, now));
+    const Picoseconds slot = scheduler_->next_slot();
+    inclusive_ = slot <= now;
+    wake_at(std::max(slot, now));
   }
 }
 

@@ -38,7 +38,7 @@ struct MemoryPortStatistics {
 /// data bus with a fixed latency (BusScheduler), or a DRAM (DramScheduler). Answers keep the order of a
 /// port's reads, and of its writes.
 ///
-/// Nothing needs the scheduler's decisions when they fall, but a request that waits for a place in the queue.
+/// Nothing needs the scheduler's decisions when they fall, but a request that waits for a slot in the queue.
 /// They wait for the first answer that has to be given; at its date all that are known are given, the others
 /// with their dates as timing annotation. So a kernel event serves one request or several.
 ///
@@ -74,7 +74,7 @@ class Memory : public sc_core::sc_module, private MemoryService {
     Picoseconds ready;
     std::size_t port = 0;
   };
-  struct Told {  // an answer ahead of its date
+  struct EarlyAnswer {  // given ahead of its date
     Picoseconds date;
     Picoseconds latency;
   };
@@ -83,8 +83,8 @@ class Memory : public sc_core::sc_module, private MemoryService {
     const ::tlm::tlm_generic_payload* answered_payload = nullptr;  // of the last BEGIN_RESP
     Picoseconds answered_until;  // END_RESP's own time; the next BEGIN_RESP is not earlier
     Ring<Answer> held;           // wait for the END_RESP
-    Ring<Told> told;
-    MemoryPortStatistics statistics;  // until the first date in `told`
+    Ring<EarlyAnswer> early;
+    MemoryPortStatistics statistics;  // until the first date in `early`
   };
 
   void end_of_elaboration() override;
@@ -121,8 +121,8 @@ class Memory : public sc_core::sc_module, private MemoryService {
   const std::unique_ptr<MemoryScheduler> scheduler_;
   std::unique_ptr<std::uint8_t, Free> bytes_;
   MemoryQueues queues_;
-  mutable std::vector<Port> ports_;  // decisions are made late, at the latest when somebody asks
-  Ring<Answer> answers_;             // not told yet, in the order of decisions
+  mutable std::vector<Port> ports_;  // decisions are made late, at the latest when the statistics are read
+  Ring<Answer> answers_;             // not given yet, in the order of decisions
   sc_core::sc_event wake_;
   Picoseconds wake_date_ = kNever;  // it has been notified for
   std::size_t held_ = 0;            // answers that wait for an END_RESP, on all ports

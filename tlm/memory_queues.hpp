@@ -34,7 +34,7 @@ class MemoryQueues {
   struct Taken {  ///< a request that was not taken at once and now is
     std::size_t port;
     MemoryRequest request;
-    Picoseconds date;  ///< when its place was free
+    Picoseconds date;  ///< when its slot was free
   };
 
   explicit MemoryQueues(std::uint32_t depth) : depth_(depth) {}
@@ -77,7 +77,7 @@ class MemoryQueues {
   bool has_refused(std::size_t port) const { return ports_[port].refused.payload != nullptr; }
   bool any_refused() const { return refused_ != 0; }
 
-  /// The first request leaves its queue at `date`; one that was refused finds its place.
+  /// The first request leaves its queue at `date`; one that was refused gets its slot.
   MemoryRequest pop(std::size_t id, Picoseconds date) {
     Port& port = ports_[id];
     const MemoryRequest request = port.queue.front();
@@ -93,7 +93,7 @@ class MemoryQueues {
     arrivals_[id] = port.queue.empty() ? kNever : port.queue.front().arrival;
     return request;
   }
-  /// Refused requests that have found their place since the last call.
+  /// Refused requests that have got a slot since the last call.
   std::vector<Taken> newly_taken() { return std::exchange(taken_, {}); }
   bool any_newly_taken() const { return !taken_.empty(); }
 

@@ -7,7 +7,7 @@
 
 namespace parallax {
 
-/// Told of the scheduler's decisions.
+/// Notified of the scheduler's decisions.
 class MemoryService {
  public:
   virtual ~MemoryService() = default;
@@ -31,8 +31,8 @@ class MemoryScheduler {
   virtual void serve_until(Picoseconds date, bool inclusive, MemoryService& service) = 0;
   /// No answer that is not known yet is due before, if no further request comes; kNever when nothing waits.
   virtual Picoseconds next_answer() = 0;
-  /// No refused request finds its place before. When that is the present, it is decided about inclusively.
-  virtual Picoseconds next_place() = 0;
+  /// No refused request gets a slot before. When that is the present, it is decided about inclusively.
+  virtual Picoseconds next_slot() = 0;
 
   /// Cycles until `date` in which the data bus was taken for a port; what was decided counts as it passes.
   virtual Cycles bus_taken(std::size_t port, Picoseconds date) = 0;

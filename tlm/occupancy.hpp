@@ -32,7 +32,7 @@ class Occupancy {
   std::uint64_t bin_width() const { return std::uint64_t{1} << shift_; }
   std::uint64_t cycles(std::size_t bin) const { return cycles_[bin]; }
   std::uint64_t empty() const { return empty_; }  ///< cycles with no token
-  std::uint64_t full() const { return full_; }    ///< cycles without a free place
+  std::uint64_t full() const { return full_; }    ///< cycles without a free slot
   /// Tokens held, summed over the cycles.
   std::uint64_t level_cycles() const { return level_cycles_; }
   /// Cycles in all: the sum over all bins.

@@ -13,7 +13,7 @@ class Ring {
  public:
   bool empty() const { return size_ == 0; }
   std::size_t size() const { return size_; }
-  /// The oldest element, the newest, and the one `i` places after the oldest; they must be there.
+  /// The oldest element, the newest, and the one `i` after the oldest; they must be there.
   T& front() { return (*this)[0]; }
   const T& front() const { return (*this)[0]; }
   T& back() { return (*this)[size_ - 1]; }
@@ -24,8 +24,8 @@ class Ring {
     if (size_ == capacity_) grow();
     slots_[(first_ + size_++) & mask_] = value;
   }
-  /// A new element with what its place happens to hold: to be filled in, field by field, which is faster than
-  /// to copy one that has just been made.
+  /// A new element with what its slot happens to hold: to be filled in, field by field. To copy one that has
+  /// just been made reads what was written in smaller pieces, a store-forwarding stall.
   T& add() {
     if (size_ == capacity_) grow();
     return slots_[(first_ + size_++) & mask_];

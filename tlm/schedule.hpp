@@ -16,6 +16,38 @@ struct Phase {
   std::uint32_t interval = 1;
   PortMask consume = 0;
   PortMask produce = 0;
+
+  // Put down as a data sheet reads: fires(20).reads(0b11).writes(0b1).every(3).
+  constexpr Phase reads(unsigned ports) const {
+    return {count, interval, static_cast<PortMask>(ports), produce};
+  }
+  constexpr Phase writes(unsigned ports) const {
+    return {count, interval, consume, static_cast<PortMask>(ports)};
+  }
+  constexpr Phase every(std::uint32_t cycles) const { return {count, cycles, consume, produce}; }
+
+  /// Whether a firing of this phase does what one of the other does.
+  constexpr bool like(const Phase& other) const {
+    return interval == other.interval && consume == other.consume && produce == other.produce;
+  }
+};
+
+/// So many firings, less than 2^32, an interval of 1 cycle each; what they read and write is said with it.
+constexpr Phase fires(std::uint64_t times = 1) { return {static_cast<std::uint32_t>(times), 1, 0, 0}; }
+/// Idle time of so many cycles.
+constexpr Phase idles(std::uint32_t cycles) { return {cycles == 0 ? 0U : 1U, cycles, 0, 0}; }
+
+/// Firings put down one after the other: those that do the same as the one before lengthen its phase.
+class Firings {
+ public:
+  void add(const Phase& phase);
+  /// The firing added last takes `cycles` more. Needs one.
+  void lengthen(std::uint32_t cycles);
+
+  const std::vector<Phase>& phases() const { return phases_; }
+
+ private:
+  std::vector<Phase> phases_;
 };
 
 /// What a stage does to its ports during one frame, as data: the order of reads and writes with its pace.
@@ -30,8 +62,9 @@ class Schedule {
 
   /// Appends `repeat` times the given phases. Empty pieces are left out.
   Schedule& repeat(std::uint64_t times, const std::vector<Phase>& phases);
-  /// Appends one phase.
+  /// Appends one phase, or firings.
   Schedule& run(const Phase& phase) { return repeat(1, {phase}); }
+  Schedule& run(const Firings& firings) { return repeat(1, firings.phases()); }
 
   const std::vector<Segment>& segments() const { return segments_; }
   const std::vector<Phase>& phases() const { return phases_; }

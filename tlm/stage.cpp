@@ -211,7 +211,7 @@ bool Stage::fire_writers() {
   if (fired == 0) return false;
   left_ = entered_;
   last_write_ = frame_->last_write = frame_->last_firing = free_ - interval;
-  statistics_.busy += interval * static_cast<std::int64_t>(fired);
+  statistics_.busy += interval * fired;
   statistics_.firings += fired;
   next_.count += static_cast<std::uint32_t>(fired - 1);
   step();

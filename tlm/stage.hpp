@@ -34,8 +34,8 @@ struct FrameDates {
 /// the pipeline has room; it reads its inputs in s(k) and writes its outputs, all in the same cycle, in the
 /// first cycle w(k) >= s(k) + latency, after the firing before it has written, in which every one of them has
 /// room. The pipeline is `latency` registers with a handshake each: bubbles close up under back-pressure, and
-/// a firing enters when the firing `latency` places ahead leaves, s(k) >= w(k - latency). With latency 0
-/// reading and writing are one cycle. Firings that write nothing take no place in the pipeline.
+/// a firing enters when the firing `latency` firings before it leaves, s(k) >= w(k - latency). With latency 0
+/// reading and writing are one cycle. Firings that write nothing take no slot in the pipeline.
 ///
 /// A subclass declares its ports (their order numbers the bits of PortMask), gives the schedule of one frame,
 /// and hangs its kernel on the rows of its inputs (Stream::on_row). Frames follow one another without end.
@@ -89,6 +89,8 @@ class Stage : public sc_core::sc_module, public Actor {
   void advance() override;
 
  private:
+  // Leap compares the whole state of a stage with that of a period before, and moves all of it on at once:
+  // the pipeline, the position, the statistics. Accessors would show every member and add nothing that holds.
   friend class Leap;
   static constexpr std::uint64_t kStartsKept = 128;
 
@@ -116,13 +118,15 @@ class Stage : public sc_core::sc_module, public Actor {
   struct Position {  // of the next firing in the schedule
     std::size_t segment = 0;
     std::uint32_t phase = 0;
-    std::uint64_t pass = 0;  // between the two, which would be read as one while one of them is written
+    // Between `phase` and `count`: side by side they would be copied as one word right after one of them was
+    // written, a store-forwarding stall.
+    std::uint64_t pass = 0;
     std::uint32_t count = 0;
 
     bool is_start() const { return count == 0 && phase == 0 && pass == 0 && segment == 0; }
   };
 
-  // When the firing `before` places before the last one started.
+  // When the firing so many firings before the last one started.
   Cycles start_of_last(std::uint64_t before) const {
     return starts_[(statistics_.firings - 1 - before) % kStartsKept];
   }

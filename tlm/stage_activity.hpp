@@ -19,7 +19,7 @@ enum class StageActivity : std::uint8_t {
   kStarved,       ///< held back by an empty input
   kBlocked,       ///< held back by a full output
   kMemory,        ///< held back by a stream from or to a memory port, within a frame
-  kSynchroniser,  ///< held back by a token or a place that is there, but still on its way between clocks
+  kSynchroniser,  ///< held back by a token or a slot that is there, but still on its way between clocks
   kBlanking,      ///< declared row and frame overheads, and no frame there: waiting for a frame's first token
                   ///< from the memory
 };
@@ -75,7 +75,7 @@ class StageListener {
   virtual void fired(const Stage& stage, const FiringDates& firing) = 0;
   /// The firings `period` again, `times` times: the first time `later` cycles later, each further time
   /// `every` cycles after the one before. May come later than their dates are known, see patience(). What one
-  /// listener is told in one call may be several for another.
+  /// listener gets in one call may be several calls for another.
   virtual void repeated(const Stage& stage, const std::vector<FiringDates>& period, Cycles later,
                         Cycles every, std::uint64_t times) = 0;
   /// With fewer firings than these repeated() may wait for more of the same.

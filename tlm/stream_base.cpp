@@ -75,14 +75,14 @@ StreamBase::StreamBase(const char* name, Dataflow& dataflow, const ClockDomain& 
 }
 
 void StreamBase::attach_writer(const std::string& module, Actor* actor) {
-  if (writer_name_ == "nobody" || module.size() > writer_name_.size()) {
+  if (writer_name_ == kUnbound || module.size() > writer_name_.size()) {
     writer_name_ = module;
     writer_ = actor;
   }
 }
 
 void StreamBase::attach_reader(const std::string& module, Actor* actor) {
-  if (reader_name_ == "nobody" || module.size() > reader_name_.size()) {
+  if (reader_name_ == kUnbound || module.size() > reader_name_.size()) {
     reader_name_ = module;
     reader_ = actor;
   }
@@ -116,7 +116,7 @@ void StreamBase::wake_reader() {
 
 // Goes through writes and reads in the order in which they change the level. A date counts once it is certain
 // that nothing unknown can come before it: each side's next date is later than its last one. With both
-// offsets 0 a token may free its place in the cycle that writes it; the level is then one too low, but for no
+// offsets 0 a token may free its slot in the cycle that writes it; the level is then one too low, but for no
 // time.
 void StreamBase::settle() const {
   std::uint64_t writes = settled_writes_;
@@ -138,7 +138,7 @@ void StreamBase::settle() const {
     if (leaves ? frees == read : writes == written) break;
     const Cycles date = leaves ? room : write;
     if (date > settled_until_) {
-      const auto cycles = static_cast<std::uint64_t>((date - settled_until_).count());
+      const std::uint64_t cycles = (date - settled_until_).size();
       occupancy_.add(writes - frees, cycles);
       if (counted_ != nullptr) counted_->emplace_back(writes - frees, cycles);
       settled_until_ = date;
@@ -166,7 +166,7 @@ void StreamBase::fill(FifoFill& fill) const {
   fill.empty_cycles = occupancy_.empty();
   if (ahead_.periods_gone == nullptr) return;
   const std::uint64_t periods = *ahead_.periods_gone - *ahead_.periods_added;
-  fill.until += ahead_.period * static_cast<std::int64_t>(periods);
+  fill.until += ahead_.period * periods;
   fill.written += ahead_.tokens * periods;
   fill.freed += ahead_.tokens * periods;
   fill.token_cycles += ahead_.token_cycles * periods;
@@ -192,7 +192,7 @@ void StreamBase::release() {
 
 void StreamBase::wait_writable(std::uint64_t ahead) {
   write_wait_began_ = writer_clock_.now();
-  // Tokens before this one may be committed meanwhile, so its place counts from the first, not from the next.
+  // Tokens before this one may be committed meanwhile, so its slot counts from the first, not from the next.
   const std::uint64_t token = statistics_.written + ahead;
   while (!write_date_known(token - statistics_.written)) {
     writer_waits_ = true;

@@ -24,7 +24,7 @@ struct FifoConfig {
   /// For kind kFree, else left alone: edges of the reader's clock from the writing edge until the token can
   /// be read. 1 = registered; 0 = in the same cycle, where both sides have one clock.
   std::uint32_t write_to_read = 1;
-  /// For kind kFree, else left alone: edges of the writer's clock from the reading edge until the freed place
+  /// For kind kFree, else left alone: edges of the writer's clock from the reading edge until the freed slot
   /// can be written. 1 = registered; 0 = in the same cycle, where both sides have one clock.
   std::uint32_t read_to_write = 1;
   FifoKind kind = FifoKind::kFree;        ///< which circuit; fifo_kind.hpp states the rule of each
@@ -42,14 +42,14 @@ struct StreamStatistics {
   Cycles starved_on_empty;       ///< reader's cycles in which only this stream's lack of a token held it back
 };
 
-/// How full a FIFO has been until a date, as its writer sees it: what a place counts, see
+/// How full a FIFO has been until a date, as its writer sees it: what a slot counts, see
 /// StreamBase::occupancy().
 struct FifoFill {
   Cycles until;                    ///< of the writer's clock; nothing before it can change
   std::uint64_t written = 0;       ///< tokens by then
-  std::uint64_t freed = 0;         ///< of these, tokens whose place can be written again
+  std::uint64_t freed = 0;         ///< of these, tokens whose slot can be written again
   std::uint64_t token_cycles = 0;  ///< tokens held, summed over the cycles until then
-  std::uint64_t full_cycles = 0;   ///< without a free place
+  std::uint64_t full_cycles = 0;   ///< without a free slot
   std::uint64_t empty_cycles = 0;  ///< without a token
 
   std::uint64_t level() const { return written - freed; }  ///< tokens held then
@@ -95,6 +95,7 @@ class StreamListener {
 class StreamBase : public sc_core::sc_prim_channel, public virtual sc_core::sc_interface {
  public:
   static constexpr std::uint32_t kLargestDepth = 1u << 24;  // tokens
+  static constexpr const char* kUnbound = "nobody";         // reader_name(), writer_name() of an open end
 
   /// Throws UserError, naming the stream, when a number is out of its range, when a kind for one clock is put
   /// between two, or an offset of 0 is, or when offsets are given to a kind that has its own. Clocks are two
@@ -111,7 +112,7 @@ class StreamBase : public sc_core::sc_prim_channel, public virtual sc_core::sc_i
   std::uint32_t depth() const { return config_.depth; }
   Bits width() const { return config_.width; }
   Bits storage() const { return config_.width * config_.depth; }
-  /// Whether a token (place) that is there in cycle `date` of the reader's (writer's) clock, and was wanted
+  /// Whether a token (slot) that is there in cycle `date` of the reader's (writer's) clock, and was wanted
   /// in cycle `wanted`, had been written (read) by then, so that it was the synchroniser alone that kept it
   /// back.
   bool behind_synchroniser(Cycles date, Cycles wanted) const {
@@ -125,7 +126,7 @@ class StreamBase : public sc_core::sc_prim_channel, public virtual sc_core::sc_i
     settle();
     return statistics_;
   }
-  /// How full the FIFO was, as its writer sees it: a place counts from the write on until it can be written
+  /// How full the FIFO was, as its writer sees it: a slot counts from the write on until it can be written
   /// again.
   const Occupancy& occupancy() const {
     dataflow_.bring_up_to_date();
@@ -178,7 +179,7 @@ class StreamBase : public sc_core::sc_prim_channel, public virtual sc_core::sc_i
 
   // Writing, in cycles of the writer's clock.
 
-  /// Whether it is known when there is room for the token `ahead` places after the next one to write.
+  /// Whether it is known when there is room for the token `ahead` tokens after the next one to write.
   bool write_date_known(std::uint64_t ahead = 0) const {
     return statistics_.written + ahead < statistics_.read + config_.depth;
   }
@@ -199,6 +200,14 @@ class StreamBase : public sc_core::sc_prim_channel, public virtual sc_core::sc_i
   /// The writing actor stops here until there is known to be room.
   void wait_for_room() { writer_waits_ = true; }
 
+  // For a Stage: its firing, when it is not mark_written() that says so.
+
+  /// The next token to write had its writer wait for so many cycles.
+  void count_blocked(Cycles cycles) const { statistics_.blocked_on_full += cycles; }
+  /// Notes for Leap that the reader (writer) was ready for the next token in cycle `ready`.
+  void watch_read(Cycles ready) { note(read_watch_, ready, readable_at()); }
+  void watch_write(Cycles ready) { note(write_watch_, ready, writable_at()); }
+
   bool reader_waits() const { return reader_waits_; }
   bool writer_waits() const { return writer_waits_; }
 
@@ -208,7 +217,7 @@ class StreamBase : public sc_core::sc_prim_channel, public virtual sc_core::sc_i
   void wait_readable();
   /// Marks the next token as read in the present cycle; call after wait_readable().
   void release();
-  /// Returns in the first cycle, not before the present one, with room for the token `ahead` places after the
+  /// Returns in the first cycle, not before the present one, with room for the token `ahead` tokens after the
   /// next.
   void wait_writable(std::uint64_t ahead = 0);
   /// Marks the next token as written in the first cycle not before `time` (the present or later), one cycle
@@ -216,8 +225,9 @@ class StreamBase : public sc_core::sc_prim_channel, public virtual sc_core::sc_i
   void commit(const sc_core::sc_time& time = sc_core::sc_time_stamp());
 
  private:
+  // Leap compares the dates and counts of a stream with those of a period before, and moves all of them on at
+  // once. Accessors would show every member and add nothing that holds.
   friend class Leap;
-  friend class Stage;
   struct Ahead {  // a leap under way over this stream, periods that are not in its numbers yet
     const std::uint64_t* periods_gone = nullptr;   // through in all
     const std::uint64_t* periods_added = nullptr;  // of these, in the numbers
@@ -233,13 +243,10 @@ class StreamBase : public sc_core::sc_prim_channel, public virtual sc_core::sc_i
       ready.clear();
     }
   };
-  void watch_read(Cycles ready) { note(read_watch_, ready, readable_at()); }
-  void watch_write(Cycles ready) { note(write_watch_, ready, writable_at()); }
   static void note(Watch& watch, Cycles ready, Cycles date) {
     watch.ready.push_back(ready);
     watch.binds = watch.binds || date > ready;
   }
-  void count_blocked(Cycles cycles) const { statistics_.blocked_on_full += cycles; }
   Cycles write_date(std::uint64_t token) const { return write_dates_[token & mask_]; }
   Cycles read_date(std::uint64_t token) const { return read_dates_[token & mask_]; }
   std::uint64_t history() const { return mask_ + 1; }
@@ -269,7 +276,7 @@ class StreamBase : public sc_core::sc_prim_channel, public virtual sc_core::sc_i
   const std::uint64_t mask_;
   std::vector<Cycles> write_dates_;  // of the last tokens, by index & mask_
   std::vector<Cycles> read_dates_;
-  // The occupancy is counted a little after the dates, or when somebody asks.
+  // The occupancy is counted a little after the dates, or when the statistics are read.
   mutable StreamStatistics statistics_;
   mutable Occupancy occupancy_;
   mutable std::uint64_t settled_writes_ = 0;  // writes and
@@ -280,8 +287,8 @@ class StreamBase : public sc_core::sc_prim_channel, public virtual sc_core::sc_i
   Listeners<StreamListener> listeners_;
   Actor* writer_ = nullptr;
   Actor* reader_ = nullptr;
-  std::string writer_name_ = "nobody";
-  std::string reader_name_ = "nobody";
+  std::string writer_name_ = kUnbound;
+  std::string reader_name_ = kUnbound;
   sc_core::sc_event written_;
   sc_core::sc_event read_;
   Watch read_watch_;

@@ -40,9 +40,9 @@ struct TappedToken {
 
 /// Where the values of a stream meet their dates: `take` is called for each token, in their order, as soon as
 /// both are known, which may be ahead of kernel time, and after it where a leap is under way
-/// (Dataflow::bring_up_to_date() tells what is known). Any number of taps on any stream. A tap keeps what is
-/// on its way: values until their dates come. Make it before the simulation starts; it must outlive the
-/// simulation, or be stopped.
+/// (Dataflow::bring_up_to_date() hands over what is known). Any number of taps on any stream. A tap keeps
+/// what is on its way: values until their dates come. Make it before the simulation starts; it must outlive
+/// the simulation, or be stopped.
 ///
 /// SC_REPORT_ERROR /parallax/stream/tap when a date finds a part of its token's values: the values are cut
 /// otherwise than TapConfig says.
@@ -59,7 +59,7 @@ class Tap final : private StreamListener, private RowListener<T> {
   Tap(const Tap&) = delete;
   Tap& operator=(const Tap&) = delete;
 
-  /// What is known is told; nothing after that. Once.
+  /// Hands over what is known, and nothing after that; once.
   void stop() {
     stream_.remove_listener(*this);
     stream_.remove_row_listener(*this);
@@ -77,7 +77,7 @@ class Tap final : private StreamListener, private RowListener<T> {
       first_ = 0;
     }
     values_.insert(values_.end(), values, values + size);
-    for (; !dates_.empty() && available() >= token_size(); dates_.pop_front()) tell(dates_.front());
+    for (; !dates_.empty() && available() >= token_size(); dates_.pop_front()) hand_over(dates_.front());
   }
   void written(const StreamBase&, Cycles cycle) override {
     if (config_.side == TapConfig::Side::kWrites) date_known(cycle);
@@ -90,10 +90,10 @@ class Tap final : private StreamListener, private RowListener<T> {
     if (config_.dates_wait && (!dates_.empty() || available() < token_size())) {
       dates_.push_back(date);
     } else {
-      tell(date);
+      hand_over(date);
     }
   }
-  void tell(Cycles date) {
+  void hand_over(Cycles date) {
     const std::size_t wanted = token_size();
     const std::size_t size = std::min(wanted, available());
     if (size != 0 && size != wanted) SC_REPORT_ERROR("/parallax/stream/tap", stream_.name());
@@ -119,7 +119,7 @@ class Tap final : private StreamListener, private RowListener<T> {
   const TapConfig config_;
   const Take take_;
   std::uint64_t number_ = 0;
-  std::size_t into_piece_ = 0;  // values of the piece that are told
+  std::size_t into_piece_ = 0;  // values of the piece that are handed over
   std::vector<T> values_;       // whose dates are not known,
   std::size_t first_ = 0;       // from this one on
   Ring<Cycles> dates_;          // whose values are not known

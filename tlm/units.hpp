@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <type_traits>
 
@@ -17,12 +18,19 @@ class Quantity {
   explicit constexpr Quantity(Int count) : count_(static_cast<Rep>(count)) {}
 
   constexpr Rep count() const { return count_; }
+  /// The count as a size or an index; it must not be negative.
+  constexpr std::size_t size() const { return static_cast<std::size_t>(count_); }
+  /// The count as a number to divide and to average.
+  constexpr double real() const { return static_cast<double>(count_); }
 
   constexpr Quantity& operator+=(Quantity o) { return count_ += o.count_, *this; }
   constexpr Quantity& operator-=(Quantity o) { return count_ -= o.count_, *this; }
   friend constexpr Quantity operator+(Quantity a, Quantity b) { return a += b; }
   friend constexpr Quantity operator-(Quantity a, Quantity b) { return a -= b; }
-  friend constexpr Quantity operator*(Quantity a, Rep n) { return Quantity(a.count_ * n); }
+  template <class Int, class = std::enable_if_t<std::is_integral_v<Int>>>
+  friend constexpr Quantity operator*(Quantity a, Int n) {
+    return Quantity(a.count_ * static_cast<Rep>(n));
+  }
   friend constexpr bool operator==(Quantity a, Quantity b) { return a.count_ == b.count_; }
   friend constexpr bool operator!=(Quantity a, Quantity b) { return a.count_ != b.count_; }
   friend constexpr bool operator<(Quantity a, Quantity b) { return a.count_ < b.count_; }

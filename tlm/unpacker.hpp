@@ -18,7 +18,7 @@ struct UnpackerConfig {
   std::uint64_t pieces = 1;  ///< of a frame
 };
 
-/// Bursts in, tokens out, one a cycle. The burst being cut lies in a register: its place in the FIFO is free
+/// Bursts in, tokens out, one a cycle. The burst being cut lies in a register: its slot in the FIFO is free
 /// as soon as its first token is out. Combinational. T is a byte type; the values are passed on as they are.
 template <class T>
 class Unpacker final : public Stage {
@@ -30,13 +30,11 @@ class Unpacker final : public Stage {
            Dataflow& dataflow)
       : Stage(name, clock, dataflow, 0) {
     static_assert(sizeof(T) == 1, "values are bytes");
-    const auto burst = static_cast<std::uint64_t>(config.burst.count());
-    const auto token = static_cast<std::uint64_t>(config.token.count());
-    const auto tokens = [token](std::uint64_t bytes) {
-      return static_cast<std::uint32_t>((bytes + token - 1) / token);
-    };
-    const auto cut = [&](std::uint64_t bytes) {
-      return std::vector<Phase>{{1, 1, 0b1, 0b1}, {tokens(bytes) - 1, 1, 0, 0b1}};
+    const std::uint64_t burst = config.burst.size();
+    const std::uint64_t token = config.token.size();
+    const auto cut = [token](std::uint64_t bytes) {
+      const std::uint64_t tokens = (bytes + token - 1) / token;
+      return std::vector<Phase>{fires().reads(0b1).writes(0b1), fires(tokens - 1).writes(0b1)};
     };
     Schedule schedule;
     for (std::uint64_t piece = 0; piece < config.pieces; ++piece) {

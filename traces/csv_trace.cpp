@@ -13,7 +13,7 @@ class CsvLine {
  public:
   CsvLine(TextBuffer& out, DateText& dates) : out_(out), dates_(dates), at_(out.room(kMost)) {}
   ~CsvLine() {
-    at_[-1] = '\n';  // in the place of the last comma
+    at_[-1] = '\n';  // over the last comma
     out_.added_until(at_);
   }
   CsvLine(const CsvLine&) = delete;

@@ -27,8 +27,8 @@ void FifoTrace::sample() {
   const std::uint64_t freed = fill.freed - last.freed;
   const std::uint64_t level = fill.level();
   // In the window is what one of its sides does in it.
-  const bool inside = !window_.bounded() || window_.contains(place(writes_), begin, end) ||
-                      window_.contains(place(reads_), begin, end);
+  const bool inside = !window_.bounded() || window_.contains(position(writes_), begin, end) ||
+                      window_.contains(position(reads_), begin, end);
   if (writes_) writes_->advance(written);
   if (reads_) reads_->advance(freed);
   last_ = 1 - last_;
@@ -44,7 +44,7 @@ void FifoTrace::sample() {
     return;
   }
   tell_pending();
-  // In place: to copy what has just been written field by field costs more than to write it.
+  // In the member itself: to copy what has just been written field by field is a store-forwarding stall.
   pending_.begin = begin;
   pending_.end = end;
   pending_.cycles = cycles;

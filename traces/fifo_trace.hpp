@@ -23,7 +23,9 @@ class FifoTrace final {
   void finish();
 
  private:
-  TracePlace place(const std::optional<RowCursor>& rows) const { return rows ? rows->place() : TracePlace{}; }
+  TracePosition position(const std::optional<RowCursor>& rows) const {
+    return rows ? rows->position() : TracePosition{};
+  }
   void tell_pending();
 
   const StreamBase& stream_;

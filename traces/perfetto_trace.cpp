@@ -170,9 +170,9 @@ void PerfettoTrace::begin(const TraceParts& parts) {
   }
 }
 
-std::uint64_t PerfettoTrace::row_name(const TracePlace& place, bool draining) {
+std::uint64_t PerfettoTrace::row_name(const TracePosition& position, bool draining) {
   std::vector<std::uint64_t>& numbers = row_names_[draining ? 1 : 0];
-  const auto row = static_cast<std::size_t>(place.row);
+  const auto row = static_cast<std::size_t>(position.row);
   if (row >= numbers.size()) numbers.resize(row + 1);
   if (numbers[row] == 0) {
     numbers[row] =
@@ -182,8 +182,8 @@ std::uint64_t PerfettoTrace::row_name(const TracePlace& place, bool draining) {
 }
 
 // A row of a frame has one number, wherever it is.
-std::uint64_t PerfettoTrace::flow(const TracePlace& place, std::int32_t row) const {
-  const std::int64_t tile = place.frame * parts_.tiles + place.tile;
+std::uint64_t PerfettoTrace::flow(const TracePosition& position, std::int32_t row) const {
+  const std::int64_t tile = position.frame * parts_.tiles + position.tile;
   return static_cast<std::uint64_t>(tile * parts_.rows + row + 1);
 }
 
@@ -214,14 +214,15 @@ void PerfettoTrace::wait(Track track, Picoseconds begin, Picoseconds end, StageA
 }
 
 void PerfettoTrace::row_begins(const RowBegin& row) {
-  const std::uint64_t name = row_name(row.place, row.draining);
+  const std::uint64_t name = row_name(row.position, row.draining);
   PerfettoEvent event(out_, row.begin, Type::kSliceBegin, stages_[static_cast<std::size_t>(row.stage)]);
   event.name(name);
-  event.flow(flow(row.place, row.place.row));
-  if (row.row_written >= 0 && row.row_written != row.place.row) event.flow(flow(row.place, row.row_written));
-  event.argument(kFrame, row.place.frame + 1);
-  event.argument(kRow, row.place.row);
-  if (parts_.tiles > 1) event.argument(kTile, row.place.tile);
+  event.flow(flow(row.position, row.position.row));
+  if (row.row_written >= 0 && row.row_written != row.position.row)
+    event.flow(flow(row.position, row.row_written));
+  event.argument(kFrame, row.position.frame + 1);
+  event.argument(kRow, row.position.row);
+  if (parts_.tiles > 1) event.argument(kTile, row.position.tile);
   if (row.row_written >= 0) event.argument(kRowWritten, row.row_written);
 }
 
@@ -265,13 +266,13 @@ void PerfettoTrace::token(const TokenTransfer& token) {
 
 void PerfettoTrace::port_row(const PortRow& row) {
   const auto port = static_cast<std::size_t>(row.port);
-  const std::uint64_t name = row_name(row.place, false);
+  const std::uint64_t name = row_name(row.position, false);
   {
     PerfettoEvent event(out_, row.begin, Type::kSliceBegin, ports_[port]);
     event.name(name);
-    event.flow(flow(row.place, row.place.row));
-    event.argument(kFrame, row.place.frame + 1);
-    event.argument(kRow, row.place.row);
+    event.flow(flow(row.position, row.position.row));
+    event.argument(kFrame, row.position.frame + 1);
+    event.argument(kRow, row.position.row);
     event.argument(kBytes, static_cast<std::int64_t>(row.bytes));
     event.argument(kBursts, static_cast<std::int64_t>(row.bursts));
     event.argument(kLatencyMean,

@@ -46,8 +46,8 @@ class PerfettoTrace final : public TraceSink {
   void add_packet(std::string_view packet);
   Track add_track(const std::string& name, const char* unit = nullptr);
   std::uint64_t intern(std::uint32_t list, std::uint64_t number, std::string_view name);
-  std::uint64_t row_name(const TracePlace& place, bool draining);
-  std::uint64_t flow(const TracePlace& place, std::int32_t row) const;
+  std::uint64_t row_name(const TracePosition& position, bool draining);
+  std::uint64_t flow(const TracePosition& position, std::int32_t row) const;
   Track lane(Lanes& lanes, Picoseconds begin, Picoseconds end);
   void slice(Track track, Picoseconds begin, Picoseconds end, std::uint64_t name);
   void slice_end(Track track, Picoseconds time) { PerfettoEvent(out_, time, Type::kSliceEnd, track); }

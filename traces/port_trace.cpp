@@ -16,7 +16,7 @@ PortTrace::PortTrace(BusMaster& master, PartId id, const std::shared_ptr<const R
                      const TraceWindow& window, bool bursts, const TraceSinks& sinks)
     : id_(id), window_(window), wants_bursts_(bursts), cursor_(rows), sinks_(sinks) {
   row_.port = id;
-  row_.place = cursor_.place();
+  row_.position = cursor_.position();
   master.add_listener(*this);
 }
 
@@ -35,19 +35,19 @@ void PortTrace::known_until(Picoseconds until) {
 
 void PortTrace::requested(const BusMaster&, const sc_core::sc_time& time) {
   if (!wants_bursts_) return;
-  changes_.push({date(time), 1, window_.contains(cursor_.place(), date(time), date(time))});
+  changes_.push({date(time), 1, window_.contains(cursor_.position(), date(time), date(time))});
 }
 
 void PortTrace::transferred(const BusMaster&, const BusTransfer& transfer) {
   const Picoseconds requested = date(transfer.requested);
   const Picoseconds answered = date(transfer.answered);
   if (wants_bursts_) {
-    const BurstTransfer burst{id_,       cursor_.place(), transfer.write, transfer.address, transfer.bytes,
-                              requested, answered};
-    if (window_.contains(burst.place, requested, answered)) {
+    const BurstTransfer burst{
+        id_, cursor_.position(), transfer.write, transfer.address, transfer.bytes, requested, answered};
+    if (window_.contains(burst.position, requested, answered)) {
       for (TraceSink* sink : sinks_) sink->burst(burst);
     }
-    changes_.push({answered, -1, window_.contains(burst.place, answered, answered)});
+    changes_.push({answered, -1, window_.contains(burst.position, answered, answered)});
   }
   // A burst counts for the row in which it begins; its bytes for the rows that they belong to.
   if (row_.bursts == 0) row_.begin = std::max(row_.begin, requested);
@@ -72,12 +72,12 @@ void PortTrace::next_row() {
   const Picoseconds end = row_.end;
   row_ = {};
   row_.port = id_;
-  row_.place = cursor_.place();
+  row_.position = cursor_.position();
   row_.begin = row_.end = end;
 }
 
 void PortTrace::tell_row() {
-  if (!window_.contains(row_.place, row_.begin, row_.end)) return;
+  if (!window_.contains(row_.position, row_.begin, row_.end)) return;
   for (TraceSink* sink : sinks_) sink->port_row(row_);
 }
 

@@ -30,8 +30,8 @@ struct RecorderConfig {
   sc_core::sc_time pace;    ///< how often FIFOs are looked at, and sinks told
 };
 
-/// Listens to the parts that it is given and tells sinks what they do. What nobody is given to is not
-/// listened to, and computed for nobody. Dates are known ahead of kernel time, part by part, and so are they
+/// Listens to the parts that it is given and tells sinks what they do. A part that it is not given costs
+/// nothing. Dates are known ahead of kernel time, part by part, and so are they
 /// told: each part's in their order, save that answers of a memory may come in another than they are known
 /// in.
 ///

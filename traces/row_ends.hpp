@@ -35,7 +35,7 @@ class RowCursor {
   explicit RowCursor(std::shared_ptr<const RowEnds> ends) : ends_(std::move(ends)), end_(ends_->ends[0]) {}
 
   /// Of the next unit.
-  const TracePlace& place() const { return place_; }
+  const TracePosition& position() const { return place_; }
   /// Units until the row ends.
   std::uint64_t left_in_row() const { return end_ - at_; }
   void advance(std::uint64_t units) {
@@ -50,7 +50,7 @@ class RowCursor {
   std::size_t row_ = 0;
   std::uint64_t end_;     // of that row
   std::uint64_t at_ = 0;  // units of the frame
-  TracePlace place_{0, 0, 0};
+  TracePosition place_{0, 0, 0};
 };
 
 }  // namespace parallax

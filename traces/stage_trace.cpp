@@ -54,7 +54,7 @@ void StageTrace::repeated(const Stage&, const std::vector<FiringDates>& period, 
     const std::uint64_t periods = in_row_ ? possible : 0;
     const Cycles until = later + every * static_cast<std::int64_t>(periods);
     const bool one_by_one =
-        wants_firings_ && window_.contains(current_.place, date(period.front().free + later),
+        wants_firings_ && window_.contains(current_.position, date(period.front().free + later),
                                            date(period.back().start + until));
     const std::uint64_t whole = one_by_one ? 0 : periods;
     if (whole > 0) {
@@ -97,12 +97,12 @@ void StageTrace::note(const FiringDates& firing) {
 void StageTrace::note_firing(const FiringDates& firing) {
   StageFiring event;
   event.stage = id_;
-  event.place = current_.place;
+  event.position = current_.position;
   event.free = date(firing.free);
   event.ready = date(firing.ready);
   event.start = date(firing.start);
   event.end = date(firing.start + Cycles(firing.interval));
-  if (!window_.contains(event.place, event.start, event.end)) return;
+  if (!window_.contains(event.position, event.start, event.end)) return;
   event.work = firing.work;
   event.input_wait = firing.input_wait;
   event.room_wait = firing.room_wait;
@@ -164,17 +164,18 @@ void StageTrace::begin_row(Cycles start) {
   const ScheduleRow& row = schedule_row();
   const bool last = row_ + 1 == schedule_.rows.size();
   row_end_ = last ? schedule_.firings : schedule_.rows[row_ + 1].firing;
-  // The entry of a row some rows on, which nobody has looked at for a frame, is on its way when it is wanted.
+  // The entry of a row some rows on, which was last read a frame ago, is on its way when it is wanted.
   __builtin_prefetch(&schedule_.rows[std::min(row_ + 4, schedule_.rows.size() - 1)]);
   waits_.clear();
   current_ = {};
   current_.stage = id_;
-  current_.place = {pass_ / passes_, static_cast<std::int32_t>(pass_ % passes_) + row.row / rows_of_a_tile_,
-                    row.row % rows_of_a_tile_};
+  current_.position = {pass_ / passes_,
+                       static_cast<std::int32_t>(pass_ % passes_) + row.row / rows_of_a_tile_,
+                       row.row % rows_of_a_tile_};
   current_.draining = row.draining;
   current_.row_written = row.row_written < 0 ? -1 : row.row_written % rows_of_a_tile_;
   current_.begin = date(start);
-  in_window_ = window_.contains(current_.place, current_.begin, current_.begin);
+  in_window_ = window_.contains(current_.position, current_.begin, current_.begin);
   if (!in_window_) return;
   for (TraceSink* sink : sinks_) sink->row_begins(current_);
 }

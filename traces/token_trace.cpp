@@ -39,7 +39,7 @@ void TokenTrace::Side::pass(Cycles cycle) {
   token.end = last_end_ = clock_.date_of(cycle + Cycles(1));
   last_cycle_ = cycle;
   if (rows_) {
-    token.place = rows_->place();
+    token.position = rows_->position();
     rows_->advance(1);
   }
   ++passed_;
@@ -86,19 +86,19 @@ void TokenTrace::known_until(Picoseconds until) {
     const bool written = writes_.take(date);
     const bool read = reads_.take(date);
     if (written) {
-      tell(writes_.front(), false);
+      notify(writes_.front(), false);
       writes_.pop();
     }
     if (read) {
-      tell(reads_.front(), true);
+      notify(reads_.front(), true);
       reads_.pop();
     }
   }
 }
 
-void TokenTrace::tell(const Token& token, bool is_read) const {
-  if (!window_.contains(token.place, token.begin, token.end)) return;
-  const TokenTransfer transfer{id_,         is_read,   token.place,
+void TokenTrace::notify(const Token& token, bool is_read) const {
+  if (!window_.contains(token.position, token.begin, token.end)) return;
+  const TokenTransfer transfer{id_,         is_read,   token.position,
                                token.begin, token.end, writes_.taken() - reads_.taken()};
   for (TraceSink* sink : sinks_) sink->token(transfer);
 }

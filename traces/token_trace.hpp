@@ -30,7 +30,7 @@ class TokenTrace final : public StreamListener {
   struct Token {
     Picoseconds begin;
     Picoseconds end;
-    TracePlace place;
+    TracePosition position;
   };
   struct TokenDate {
     Picoseconds operator()(const Token& token) const { return token.begin; }
@@ -82,7 +82,7 @@ class TokenTrace final : public StreamListener {
                   std::uint64_t times) override {
     reads_.pass_again(period, every, times);
   }
-  void tell(const Token& token, bool is_read) const;
+  void notify(const Token& token, bool is_read) const;
 
   const PartId id_;
   const TraceWindow& window_;

@@ -19,17 +19,17 @@ std::string_view name_of(const std::vector<Part>& parts, PartId id) {
 }
 
 template <class Row>
-void put_place(Row& row, const TracePlace& place) {
-  row.number("frame", place.frame + 1);
-  row.number("tile", place.tile);
-  row.number("row", place.row);
+void put_position(Row& row, const TracePosition& position) {
+  row.number("frame", position.frame + 1);
+  row.number("tile", position.tile);
+  row.number("row", position.row);
 }
 
 constexpr std::string_view table_of(const StageRow&) { return "rows"; }
 template <class Row>
 void put(Row& row, const TraceParts& parts, const StageRow& event) {
   row.text("stage", name_of(parts.stages, event.stage));
-  put_place(row, event.place);
+  put_position(row, event.position);
   row.flag("draining", event.draining);
   row.number("row_written", event.row_written);
   row.date("begin_ps", event.begin);
@@ -66,7 +66,7 @@ constexpr std::string_view table_of(const PortRow&) { return "ports"; }
 template <class Row>
 void put(Row& row, const TraceParts& parts, const PortRow& event) {
   row.text("port", name_of(parts.ports, event.port));
-  put_place(row, event.place);
+  put_position(row, event.position);
   row.date("begin_ps", event.begin);
   row.date("end_ps", event.end);
   row.number("bytes", static_cast<std::int64_t>(event.bytes));
@@ -94,7 +94,7 @@ constexpr std::string_view table_of(const StageFiring&) { return "firings"; }
 template <class Row>
 void put(Row& row, const TraceParts& parts, const StageFiring& event) {
   row.text("stage", name_of(parts.stages, event.stage));
-  put_place(row, event.place);
+  put_position(row, event.position);
   row.date("free_ps", event.free);
   row.date("ready_ps", event.ready);
   row.date("start_ps", event.start);
@@ -113,7 +113,7 @@ template <class Row>
 void put(Row& row, const TraceParts& parts, const TokenTransfer& event) {
   row.text("stream", name_of(parts.streams, event.stream));
   row.text("side", event.read ? "read" : "write");
-  put_place(row, event.place);
+  put_position(row, event.position);
   row.date("begin_ps", event.begin);
   row.date("end_ps", event.end);
   row.number("level", static_cast<std::int64_t>(event.level));
@@ -123,7 +123,7 @@ constexpr std::string_view table_of(const BurstTransfer&) { return "bursts"; }
 template <class Row>
 void put(Row& row, const TraceParts& parts, const BurstTransfer& event) {
   row.text("port", name_of(parts.ports, event.port));
-  put_place(row, event.place);
+  put_position(row, event.position);
   row.text("command", event.write ? "write" : "read");
   row.number("address", static_cast<std::int64_t>(event.address));
   row.number("bytes", static_cast<std::int64_t>(event.bytes));

@@ -16,7 +16,7 @@ using PartId = std::int32_t;
 constexpr PartId kNoPart = -1;
 
 /// Where in the stream of frames something is.
-struct TracePlace {
+struct TracePosition {
   std::int64_t frame = -1;  ///< from 0; -1: before the first one
   std::int32_t tile = 0;    ///< from 0, of an image that is processed in tiles
   std::int32_t row = -1;    ///< from 0, of the tile's image; -1: none
@@ -53,8 +53,8 @@ struct TraceParts {
 /// A stage begins with a row: its first firing.
 struct RowBegin {
   PartId stage = kNoPart;
-  TracePlace place;       ///< row: the row that it reads, or, when it is draining, the row that it writes
-  bool draining = false;  ///< all rows are read, those held back come out
+  TracePosition position;  ///< row: the row that it reads, or, when it is draining, the row that it writes
+  bool draining = false;   ///< all rows are read, those held back come out
   std::int32_t row_written = -1;  ///< the last row of which it writes something in it; -1: none
   Picoseconds begin;
 };
@@ -77,7 +77,7 @@ struct StageRow : RowBegin {
 /// One firing of a stage.
 struct StageFiring {
   PartId stage = kNoPart;
-  TracePlace place;
+  TracePosition position;
   Picoseconds free;   ///< ready for it, from here on it waits for inputs
   Picoseconds ready;  ///< from here on it waits for room
   Picoseconds start;
@@ -99,7 +99,7 @@ struct FifoSpan {
   std::uint64_t full_cycles = 0;
   std::uint64_t empty_cycles = 0;
   std::uint64_t written = 0;  ///< tokens in it
-  std::uint64_t freed = 0;    ///< places in it
+  std::uint64_t freed = 0;    ///< slots in it
   std::uint64_t level = 0;    ///< tokens held at the end
 
   double mean() const {
@@ -111,7 +111,7 @@ struct FifoSpan {
 struct TokenTransfer {
   PartId stream = kNoPart;
   bool read = false;
-  TracePlace place;
+  TracePosition position;
   Picoseconds begin;
   Picoseconds end;          ///< of the cycle
   std::uint64_t level = 0;  ///< tokens held after it
@@ -121,7 +121,7 @@ struct TokenTransfer {
 /// until its last answer.
 struct PortRow {
   PartId port = kNoPart;
-  TracePlace place;
+  TracePosition position;
   Picoseconds begin;
   Picoseconds end;
   std::uint64_t bytes = 0;
@@ -140,7 +140,7 @@ struct PortRequests {
 /// A burst through a memory port.
 struct BurstTransfer {
   PartId port = kNoPart;
-  TracePlace place;
+  TracePosition position;
   bool write = false;
   std::uint64_t address = 0;
   std::uint64_t bytes = 0;

@@ -37,17 +37,17 @@ std::optional<Picoseconds> date(const std::string& text) {
   return std::nullopt;
 }
 
-// Whether a place is before a bound that names one.
-bool before(const TracePlace& place, const TraceBound& bound) {
-  if (place.frame != bound.frame) return place.frame < bound.frame;
-  return bound.row && place.row < *bound.row;
+// Whether a position is before a bound that names one.
+bool before(const TracePosition& position, const TraceBound& bound) {
+  if (position.frame != bound.frame) return position.frame < bound.frame;
+  return bound.row && position.row < *bound.row;
 }
 
 // What belongs to no frame is in no window of frames.
-bool after(const TracePlace& place, const TraceBound& bound) {
-  if (place.frame < 0) return true;
-  if (place.frame != bound.frame) return place.frame > bound.frame;
-  return bound.row && place.row > *bound.row;
+bool after(const TracePosition& position, const TraceBound& bound) {
+  if (position.frame < 0) return true;
+  if (position.frame != bound.frame) return position.frame > bound.frame;
+  return bound.row && position.row > *bound.row;
 }
 
 void check_bound(const char* option, const TraceBound& bound, std::int64_t frames, std::int32_t rows) {
@@ -96,10 +96,10 @@ void TraceWindow::check(std::int64_t frames, std::int32_t rows) const {
   if (empty) throw UserError("--trace-to is before --trace-from");
 }
 
-bool TraceWindow::contains(const TracePlace& place, Picoseconds begin, Picoseconds end) const {
+bool TraceWindow::contains(const TracePosition& position, Picoseconds begin, Picoseconds end) const {
   const auto over_before = [&](Picoseconds time) { return begin == end ? begin < time : end <= time; };
-  if (from && (from->time ? over_before(*from->time) : before(place, *from))) return false;
-  return !to || (to->time ? begin < *to->time : !after(place, *to));
+  if (from && (from->time ? over_before(*from->time) : before(position, *from))) return false;
+  return !to || (to->time ? begin < *to->time : !after(position, *to));
 }
 
 }  // namespace parallax

@@ -28,8 +28,8 @@ struct TraceWindow {
 
   /// Throws UserError when an end is outside a run of so many frames and rows, or after the other.
   void check(std::int64_t frames, std::int32_t rows) const;
-  /// Whether something that happens to `place` from `begin` to `end` is in it.
-  bool contains(const TracePlace& place, Picoseconds begin, Picoseconds end) const;
+  /// Whether something that happens to `position` from `begin` to `end` is in it.
+  bool contains(const TracePosition& position, Picoseconds begin, Picoseconds end) const;
   bool bounded() const { return from || to; }
 };
 

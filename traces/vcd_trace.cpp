@@ -172,8 +172,8 @@ void VcdTrace::change_later(Picoseconds time, SignalId signal, std::int64_t valu
 
 void VcdTrace::row_begins(const RowBegin& row) {
   const StageSignals& stage = stages_[static_cast<std::size_t>(row.stage)];
-  change(row.begin, stage.frame, row.place.frame + 1);
-  change(row.begin, stage.row, row.place.row);
+  change(row.begin, stage.frame, row.position.frame + 1);
+  change(row.begin, stage.row, row.position.row);
   if (!parts_.tokens) change(row.begin, stage.state, static_cast<std::int64_t>(StageActivity::kBusy));
 }
 
@@ -194,7 +194,7 @@ void VcdTrace::fifo(const FifoSpan& span) {
 }
 
 void VcdTrace::port_row(const PortRow& row) {
-  change(row.end, ports_[static_cast<std::size_t>(row.port)].row, row.place.row);
+  change(row.end, ports_[static_cast<std::size_t>(row.port)].row, row.position.row);
 }
 
 void VcdTrace::frame_step(std::int64_t frame, FrameStep step, Picoseconds time) {

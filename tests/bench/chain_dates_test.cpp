@@ -13,27 +13,22 @@ namespace parallax::bench {
 namespace {
 
 using test::Graph;
-using test::GraphNode;
 
-GraphNode endpoint(GraphNode::Kind kind, const std::vector<std::uint32_t>& gaps, std::uint64_t tokens) {
-  GraphNode node;
-  node.kind = kind;
+std::vector<std::uint32_t> stalls(const std::vector<std::uint32_t>& gaps, std::uint64_t tokens) {
   Gaps gap(gaps);
-  node.stalls.push_back(0);
-  while (node.stalls.size() < tokens) node.stalls.push_back(static_cast<std::uint32_t>(gap.next() - 1));
-  return node;
+  std::vector<std::uint32_t> all{0};
+  while (all.size() < tokens) all.push_back(static_cast<std::uint32_t>(gap.next() - 1));
+  return all;
 }
 
 std::int64_t reference(const ChainLoad& load) {
   Graph graph;
-  graph.nodes.push_back(endpoint(GraphNode::Kind::kSource, load.source_gaps, load.tokens()));
+  graph.nodes.push_back(test::source(stalls(load.source_gaps, load.tokens())));
   for (int i = 0; i < kStages; ++i) {
-    GraphNode stage;
-    stage.parts = {{1, {{1, 1, 1, 1}}}};
-    graph.nodes.push_back(stage);
+    graph.nodes.push_back(test::copying(1, 1));
   }
-  graph.nodes.push_back(endpoint(GraphNode::Kind::kSink, load.sink_gaps, load.tokens()));
-  for (int i = 0; i <= kStages; ++i) graph.edges.push_back({i, 0, i + 1, 0, load.depth});
+  graph.nodes.push_back(test::sink(stalls(load.sink_gaps, load.tokens())));
+  for (int i = 0; i <= kStages; ++i) graph.edges.push_back(test::link(i, i + 1).deep(load.depth));
   return test::ReferenceSimulation(graph).run().back().read.back();
 }
 

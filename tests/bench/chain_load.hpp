@@ -45,7 +45,7 @@ struct ChainRun {
   std::int64_t last_read = 0;  ///< cycle in which the sink reads the last token
 };
 
-/// Nobody ever waits for anybody but at the start: a token a cycle.
+/// No stage waits but at the start: a token a cycle.
 inline ChainLoad regular_load(std::uint32_t depth, std::uint64_t frames) {
   const std::vector<std::uint32_t> gaps(4093, 1);
   return {gaps, gaps, depth, frames};

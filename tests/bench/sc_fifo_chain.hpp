@@ -15,7 +15,7 @@ namespace parallax::bench {
 /// The plain way in SystemC: a thread a stage, an sc_fifo between two, and a wait in the kernel for every
 /// token.
 ///
-/// Its dates are not the hardware's. What is written can be read in the same cycle, and a place is free in
+/// Its dates are not the hardware's. What is written can be read in the same cycle, and a slot is free in
 /// the cycle in which it is read, as no register allows it.
 inline ChainRun run_sc_fifo(const ChainLoad& load) {
   const sc_core::sc_time cycle(1, sc_core::SC_NS);

@@ -29,15 +29,11 @@ class ChainStage final : public Stage {
       : Stage(name, clock, dataflow, shape.latency) {
     if (shape.reads) in = std::make_unique<StreamIn<int>>("in");
     if (shape.writes) out = std::make_unique<StreamOut<int>>("out");
-    std::vector<Phase> phases;
+    Firings firings;
     for (const std::uint32_t gap : shape.gaps) {
-      if (!phases.empty() && phases.back().interval == gap) {
-        ++phases.back().count;
-      } else {
-        phases.push_back({1, gap, PortMask{shape.reads}, PortMask{shape.writes}});
-      }
+      firings.add(fires().reads(shape.reads ? 1 : 0).writes(shape.writes ? 1 : 0).every(gap));
     }
-    set_schedule(Schedule().repeat(1, phases));
+    set_schedule(Schedule().run(firings));
     set_frame_limit(shape.frames);
   }
 

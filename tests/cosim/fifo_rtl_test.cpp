@@ -25,13 +25,11 @@ Graph fifos(const std::vector<GraphEdge>& kinds, std::uint32_t depth, std::vecto
     edge.to = first + 1;
     edge.depth = depth;
     graph.edges.push_back(edge);
-    for (const bool source : {true, false}) {
-      GraphNode node;
-      node.kind = source ? GraphNode::Kind::kSource : GraphNode::Kind::kSink;
-      node.clock = source ? 0 : static_cast<int>(graph.periods.size()) - 1;
-      node.stalls = rtl_stalls(
+    for (const bool first_end : {true, false}) {
+      const std::vector<std::uint32_t> stalls = rtl_stalls(
           kTokens, seed * 100003u + depth * 1009u + static_cast<std::uint32_t>(graph.nodes.size()));
-      graph.nodes.push_back(node);
+      graph.nodes.push_back(first_end ? source(stalls)
+                                      : sink(stalls).on_clock(static_cast<int>(graph.periods.size()) - 1));
     }
   }
   return graph;
@@ -46,10 +44,7 @@ std::vector<Graph> all_depths(const std::vector<GraphEdge>& kinds, const std::ve
 
 GraphEdge of_kind(FifoKind kind, std::uint32_t stages = 2) { return GraphEdge{}.of_kind(kind, stages); }
 GraphEdge of_offsets(std::uint32_t write_to_read, std::uint32_t read_to_write) {
-  GraphEdge edge;
-  edge.write_to_read = write_to_read;
-  edge.read_to_write = read_to_write;
-  return edge;
+  return GraphEdge{}.offsets(write_to_read, read_to_write);
 }
 
 TEST(FifoRtl, EveryDateWithOneClock) {

@@ -21,69 +21,48 @@ constexpr std::size_t kTokens = 300;
 // these lies in the FIFO beside it.
 constexpr std::uint32_t kDepthForTwoRows = 25;
 
-GraphNode end(GraphNode::Kind kind, std::uint32_t seed, int clock = 0) {
-  GraphNode node;
-  node.kind = kind;
-  node.clock = clock;
-  node.stalls = rtl_stalls(kTokens, seed);
-  return node;
-}
-GraphNode source(std::uint32_t seed) { return end(GraphNode::Kind::kSource, 2 * seed); }
-GraphNode sink(std::uint32_t seed) { return end(GraphNode::Kind::kSink, 2 * seed + 1); }
+GraphNode source_of(std::uint32_t seed) { return source(rtl_stalls(kTokens, 2 * seed)); }
+GraphNode sink_of(std::uint32_t seed) { return sink(rtl_stalls(kTokens, 2 * seed + 1)); }
+GraphNode copy(std::uint32_t interval, std::uint32_t latency) { return copying(latency, kTokens, interval); }
 
-GraphNode stage(std::uint32_t interval, std::uint32_t latency, int clock = 0) {
-  GraphNode node;
-  node.clock = clock;
-  node.latency = latency;
-  node.parts = {{kTokens, {{1, interval, 1, 1}}}};
-  return node;
-}
-
-GraphEdge link(int from, int to, std::uint32_t depth, FifoKind kind, int to_port = 0,
-               std::uint32_t stages = 2) {
-  GraphEdge edge;
-  edge.from = from;
-  edge.to = to;
-  edge.to_port = to_port;
-  edge.depth = depth;
-  return edge.of_kind(kind, stages);
+GraphEdge fifo(int from, int to, std::uint32_t depth, FifoKind kind, std::uint32_t stages = 2) {
+  return link(from, to).deep(depth).of_kind(kind, stages);
 }
 GraphEdge write_when_read(int from, int to, std::uint32_t depth) {  // fifo_free with READ_TO_WRITE 0
-  GraphEdge edge = link(from, to, depth, FifoKind::kFree);
-  edge.read_to_write = 0;
-  return edge;
+  return link(from, to).deep(depth).offsets(1, 0);
 }
 
 // tests/rtl/graph_chain.sv
 Graph chain(std::uint32_t depth, std::uint32_t seed) {
   Graph graph;
   graph.periods = {1};
-  graph.nodes = {source(seed), stage(1, 3), stage(2, 0), stage(1, 1), stage(3, 5), sink(seed)};
-  graph.edges = {link(0, 1, depth, FifoKind::kRegistered), link(1, 2, depth, FifoKind::kFirstWordFallThrough),
-                 link(2, 3, depth, FifoKind::kBlockRam), write_when_read(3, 4, depth),
-                 link(4, 5, depth, FifoKind::kRegistered)};
+  graph.nodes = {source_of(seed), copy(1, 3), copy(2, 0), copy(1, 1), copy(3, 5), sink_of(seed)};
+  graph.edges = {fifo(0, 1, depth, FifoKind::kRegistered), fifo(1, 2, depth, FifoKind::kFirstWordFallThrough),
+                 fifo(2, 3, depth, FifoKind::kBlockRam), write_when_read(3, 4, depth),
+                 fifo(4, 5, depth, FifoKind::kRegistered)};
   return graph;
 }
 
 // tests/rtl/graph_fork_join.sv
 Graph fork_join(const GraphNode& branch, std::uint32_t depth, std::uint32_t others, std::uint32_t seed) {
-  GraphNode join = stage(1, 2);
-  join.parts = {{kTokens, {{1, 1, 0b11, 1}}}};
+  const GraphNode join = stage(2).times(kTokens, {fires().reads(0b11).writes(1)});
   Graph graph;
   graph.periods = {1};
-  graph.nodes = {source(seed), stage(1, 1), branch, join, sink(seed)};
-  graph.edges = {link(0, 1, others, FifoKind::kFirstWordFallThrough),
-                 link(1, 2, others, FifoKind::kRegistered), link(1, 3, depth, FifoKind::kBlockRam, 1),
-                 link(2, 3, others, FifoKind::kFirstWordFallThrough), write_when_read(3, 4, others)};
+  graph.nodes = {source_of(seed), copy(1, 1), branch, join, sink_of(seed)};
+  graph.edges = {fifo(0, 1, others, FifoKind::kFirstWordFallThrough),
+                 fifo(1, 2, others, FifoKind::kRegistered), fifo(1, 3, depth, FifoKind::kBlockRam).into(1),
+                 fifo(2, 3, others, FifoKind::kFirstWordFallThrough), write_when_read(3, 4, others)};
   return graph;
 }
 Graph fork_meets_again(std::uint32_t depth, std::uint32_t seed) {
-  return fork_join(stage(1, 6), depth, depth, seed);
+  return fork_join(copy(1, 6), depth, depth, seed);
 }
 Graph row_delay(std::uint32_t depth, std::uint32_t seed) {
   constexpr std::uint64_t kRow = 12;
-  GraphNode window = stage(1, 2);
-  window.parts = {{2 * kRow, {{1, 1, 1, 0}}}, {3 * kRow, {{1, 1, 1, 1}}}, {2 * kRow, {{1, 1, 0, 1}}}};
+  const GraphNode window = stage(2)
+                               .times(2 * kRow, {fires().reads(1)})
+                               .times(3 * kRow, {fires().reads(1).writes(1)})
+                               .times(2 * kRow, {fires().writes(1)});
   return fork_join(window, depth, 4, seed);
 }
 
@@ -91,10 +70,11 @@ Graph row_delay(std::uint32_t depth, std::uint32_t seed) {
 Graph two_clocks(std::uint32_t depth, std::uint32_t seed, const std::vector<std::int64_t>& periods) {
   Graph graph;
   graph.periods = periods;
-  graph.nodes = {source(seed), stage(1, 2), stage(2, 1, 1), stage(1, 0, 1), stage(1, 4), sink(seed)};
-  graph.edges = {link(0, 1, depth, FifoKind::kRegistered), link(1, 2, depth, FifoKind::kAsynchronous),
-                 link(2, 3, depth, FifoKind::kFirstWordFallThrough),
-                 link(3, 4, depth, FifoKind::kAsynchronous, 0, 3), link(4, 5, depth, FifoKind::kBlockRam)};
+  graph.nodes = {source_of(seed),        copy(1, 2), copy(2, 1).on_clock(1),
+                 copy(1, 0).on_clock(1), copy(1, 4), sink_of(seed)};
+  graph.edges = {fifo(0, 1, depth, FifoKind::kRegistered), fifo(1, 2, depth, FifoKind::kAsynchronous),
+                 fifo(2, 3, depth, FifoKind::kFirstWordFallThrough),
+                 fifo(3, 4, depth, FifoKind::kAsynchronous, 3), fifo(4, 5, depth, FifoKind::kBlockRam)};
   return graph;
 }
 
@@ -162,11 +142,10 @@ std::string chain8(std::uint32_t depth) {
       top.clk = 0;
     }
     Graph graph;
-    graph.nodes = {end(GraphNode::Kind::kSource, 0)};
-    for (int i = 0; i < 8; ++i) graph.nodes.push_back(stage(1, 1));
-    graph.nodes.push_back(end(GraphNode::Kind::kSink, 0));
-    for (GraphNode& node : graph.nodes) std::fill(node.stalls.begin(), node.stalls.end(), 0u);
-    for (int i = 0; i < 9; ++i) graph.edges.push_back(link(i, i + 1, depth, FifoKind::kRegistered));
+    graph.nodes = {source(no_stalls(kTokens))};
+    for (int i = 0; i < 8; ++i) graph.nodes.push_back(copy(1, 1));
+    graph.nodes.push_back(sink(no_stalls(kTokens)));
+    for (int i = 0; i < 9; ++i) graph.edges.push_back(fifo(i, i + 1, depth, FifoKind::kRegistered));
     const std::vector<EdgeDates> model = ModelSimulation(graph, 0).run();
     std::string text = top.disorder ? "the circuit loses, doubles or reorders tokens\n" : "";
     first.read = model.front().read;  // inside

@@ -36,7 +36,7 @@ inline std::string differences(const std::vector<EdgeDates>& expected, const std
   for (std::size_t e = 0; e < expected.size(); ++e) {
     compare(e, "written", expected[e].written, actual[e].written);
     compare(e, "read", expected[e].read, actual[e].read);
-    // Tokens that nobody came for are not settled; where all were read the high-water mark is final.
+    // Tokens that were not read are not settled; where all were read the high-water mark is final.
     if (expected[e].written.size() == expected[e].read.size() &&
         expected[e].high_water != actual[e].high_water) {
       out << "edge " << e << " high water: expected " << expected[e].high_water << ", have "

@@ -13,27 +13,19 @@
 namespace parallax::test {
 namespace {
 
-GraphNode end(GraphNode::Kind kind, std::size_t tokens) {
-  GraphNode node;
-  node.kind = kind;
-  node.stalls.assign(tokens, 0);
-  return node;
-}
-
 // A fork whose branches meet again: a window of 10 tokens on one, a FIFO on the other.
 //   0 source -> 1 fork -> 2 window -> 3 join -> 4 sink
 //                      \------------/
 Graph fork_and_join(std::uint32_t shortcut_depth) {
   Graph graph;
-  GraphNode fork;
-  fork.parts = {{20, {{1, 1, 1, 1}}}};
-  GraphNode window;
-  window.parts = {{10, {{1, 1, 1, 0}}}, {10, {{1, 1, 1, 1}}}, {10, {{1, 1, 0, 1}}}};
-  GraphNode join;
-  join.parts = {{20, {{1, 1, 0b11, 1}}}};
-  graph.nodes = {end(GraphNode::Kind::kSource, 20), fork, window, join, end(GraphNode::Kind::kSink, 20)};
-  graph.edges = {
-      {0, 0, 1, 0, 2}, {1, 0, 2, 0, 2}, {1, 0, 3, 1, shortcut_depth}, {2, 0, 3, 0, 2}, {3, 0, 4, 0, 2}};
+  graph.nodes = {source(no_stalls(20)), copying(1, 20),
+                 stage(1)
+                     .times(10, {fires().reads(1)})
+                     .times(10, {fires().reads(1).writes(1)})
+                     .times(10, {fires().writes(1)}),
+                 stage(1).times(20, {fires().reads(0b11).writes(1)}), sink(no_stalls(20))};
+  graph.edges = {link(0, 1).deep(2), link(1, 2).deep(2), link(1, 3).into(1).deep(shortcut_depth),
+                 link(2, 3).deep(2), link(3, 4).deep(2)};
   return graph;
 }
 
@@ -68,26 +60,21 @@ TEST(Deadlock, NamesTheCircleOfWaits) {
 
 // Node 1 forks to the join 3 and to 4, and has in its pipeline the token that the join waits for, since 4
 // waits for the join before it reads. That node 1's next firing waits for the source, which waits for 2,
-// which waits for the join, closes a circle too, but holds nobody up.
-TEST(Deadlock, NamesNoWaitOfAStageThatNobodyWaitsFor) {
-  constexpr PortMask kNone = 0;
-  const auto stage = [](std::uint32_t latency, const std::vector<GraphPart>& parts) {
-    GraphNode node;
-    node.latency = latency;
-    node.parts = parts;
-    return node;
-  };
+// which waits for the join, closes a circle too, but holds nothing up.
+TEST(Deadlock, NamesNoWaitOfAStageThatNoneWaitsFor) {
   Graph graph;
-  graph.nodes = {end(GraphNode::Kind::kSource, 10),
-                 stage(1, {{10, {{1, 1, 1, 1}}}}),
-                 stage(0, {{10, {{1, 1, 1, 1}}}}),
-                 stage(0, {{3, {{1, 1, 0b01, kNone}}},
-                           {7, {{1, 1, 0b10, 1}, {1, 1, 0b01, kNone}}},
-                           {3, {{1, 1, 0b10, 1}}}}),
-                 stage(0, {{10, {{1, 1, 0b11, 1}}}}),
-                 end(GraphNode::Kind::kSink, 10)};
-  graph.edges = {{0, 0, 1, 0, 9}, {0, 0, 2, 0, 2}, {2, 0, 3, 1, 1}, {1, 0, 3, 0, 9},
-                 {3, 0, 4, 0, 9}, {1, 0, 4, 1, 2}, {4, 0, 5, 0, 9}};
+  graph.nodes = {source(no_stalls(10)),
+                 copying(1, 10),
+                 copying(0, 10),
+                 stage(0)
+                     .times(3, {fires().reads(0b01)})
+                     .times(7, {fires().reads(0b10).writes(1), fires().reads(0b01)})
+                     .times(3, {fires().reads(0b10).writes(1)}),
+                 stage(0).times(10, {fires().reads(0b11).writes(1)}),
+                 sink(no_stalls(10))};
+  graph.edges = {link(0, 1).deep(9), link(0, 2).deep(2), link(2, 3).into(1).deep(1),
+                 link(1, 3).deep(9), link(3, 4).deep(9), link(1, 4).into(1).deep(2),
+                 link(4, 5).deep(9)};
   ModelSimulation model(graph, ~0ull);
   model.run();
   const std::string text = describe(model.dataflow().waits());
@@ -103,7 +90,7 @@ TEST(Deadlock, NamesNoWaitOfAStageThatNobodyWaitsFor) {
   EXPECT_EQ(remedy.depths[0].tokens, 3u);
 }
 
-// A block in kernel time between two stages: nobody knows when it reads and writes.
+// A block in kernel time between two stages: when it reads and writes is not known.
 class Unknown final : public sc_core::sc_module {
  public:
   StreamIn<int> in{"in"};
@@ -132,15 +119,15 @@ class Copy final : public Stage {
   StreamOut<int> out{"out"};
   Copy(const sc_core::sc_module_name& name, const ClockDomain& clock, Dataflow& dataflow)
       : Stage(name, clock, dataflow, 1) {
-    set_schedule(Schedule().run({1, 1, 0b11, 0b1}));
+    set_schedule(Schedule().run(fires().reads(0b11).writes(0b1)));
   }
 };
 
 TEST(Deadlock, SaysThatItKnowsNoDepthWhereABlockInKernelTimeTakesPart) {
-  GraphNode node = end(GraphNode::Kind::kSource, 20);
+  const GraphNode first = source(no_stalls(20));
   const ClockDomain clock("clock", Hertz(1000));
   Dataflow dataflow("dataflow");
-  GraphThread<int> source("source", clock, node);
+  GraphThread<int> source("source", clock, first);
   Unknown unknown("unknown");
   Copy join("join", clock, dataflow);
   Stream<int> to_unknown("to_unknown", dataflow, clock, clock, {});
@@ -154,8 +141,8 @@ TEST(Deadlock, SaysThatItKnowsNoDepthWhereABlockInKernelTimeTakesPart) {
   join.in_a(from_unknown);
   join.in_b(to_join);
   join.out(result);
-  GraphNode sink = end(GraphNode::Kind::kSink, 20);
-  GraphThread<int> last("last", clock, sink);
+  const GraphNode end = sink(no_stalls(20));
+  GraphThread<int> last("last", clock, end);
   (*last.in)(result);
   sc_core::sc_start();
   EXPECT_EQ(dataflow.deadlock().size(), 3u);
@@ -173,7 +160,7 @@ TEST(Deadlock, NoneWhenTheShortcutIsDeepEnough) {
 
 TEST(Deadlock, ASourceThatEndsIsNone) {
   Graph graph = fork_and_join(12);
-  graph.nodes[0] = end(GraphNode::Kind::kSource, 15);
+  graph.nodes[0] = source(no_stalls(15));
   ModelSimulation model(graph, ~0ull);
   EXPECT_EQ(model.run()[4].read.size(), 5u);
   EXPECT_TRUE(model.dataflow().deadlock().empty());
@@ -182,7 +169,7 @@ TEST(Deadlock, ASourceThatEndsIsNone) {
 
 TEST(Deadlock, ASinkThatEndsIsNone) {
   Graph graph = fork_and_join(12);
-  graph.nodes[4] = end(GraphNode::Kind::kSink, 5);
+  graph.nodes[4] = sink(no_stalls(5));
   ModelSimulation model(graph, ~0ull);
   model.run();
   EXPECT_TRUE(model.dataflow().deadlock().empty());

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// A dataflow graph as plain data, for the model and for the reference to build from.
+// A dataflow graph as plain data, for the model and for the reference to build from, put down as a data sheet
+// reads:
+//   graph.nodes = {source(no_stalls(8)), stage(1).times(8, {fires().reads(1).writes(1)}), sink({5, 0, 0})};
+//   graph.edges = {link(0, 1).deep(4), link(1, 2).deep(2).of_kind(FifoKind::kBlockRam)};
 #pragma once
 
 #include <cstdint>
 #include <ostream>
+#include <utility>
 #include <vector>
 
 #include "tlm/schedule.hpp"
@@ -26,7 +30,46 @@ struct GraphNode {
   std::vector<GraphPart> parts;  ///< of one frame
   // Source and sink: the least number of cycles between tokens i-1 and i, minus one.
   std::vector<std::uint32_t> stalls;
+
+  /// A stage then goes through these phases, so many times.
+  GraphNode times(std::uint64_t repeat, std::vector<Phase> phases) const {
+    GraphNode node = *this;
+    node.parts.push_back({repeat, std::move(phases)});
+    return node;
+  }
+  GraphNode on_clock(int index) const {
+    GraphNode node = *this;
+    node.clock = index;
+    return node;
+  }
 };
+
+inline GraphNode end_of(GraphNode::Kind kind, std::vector<std::uint32_t> stalls) {
+  GraphNode node;
+  node.kind = kind;
+  node.stalls = std::move(stalls);
+  return node;
+}
+inline GraphNode source(std::vector<std::uint32_t> stalls) {
+  return end_of(GraphNode::Kind::kSource, std::move(stalls));
+}
+inline GraphNode sink(std::vector<std::uint32_t> stalls) {
+  return end_of(GraphNode::Kind::kSink, std::move(stalls));
+}
+/// Of a source or sink that never rests.
+inline std::vector<std::uint32_t> no_stalls(std::size_t tokens) {
+  return std::vector<std::uint32_t>(tokens, 0);
+}
+/// A stage of this latency; what it does is said with GraphNode::times().
+inline GraphNode stage(std::uint32_t latency) {
+  GraphNode node;
+  node.latency = latency;
+  return node;
+}
+/// A stage that copies tokens, one in `interval` cycles.
+inline GraphNode copying(std::uint32_t latency, std::uint64_t tokens, std::uint32_t interval = 1) {
+  return stage(latency).times(tokens, {fires().reads(1).writes(1).every(interval)});
+}
 
 struct GraphEdge {
   int from = 0, from_port = 0;  ///< several edges from one port: a fork
@@ -49,7 +92,33 @@ struct GraphEdge {
     read_to_write = k == FifoKind::kAsynchronous ? stages + 1 : 1;
     return *this;
   }
+  /// Of kind kFree, then.
+  GraphEdge& offsets(std::uint32_t to_read, std::uint32_t to_write) {
+    write_to_read = to_read;
+    read_to_write = to_write;
+    return *this;
+  }
+  GraphEdge& deep(std::uint32_t tokens) {
+    depth = tokens;
+    return *this;
+  }
+  GraphEdge& out_of(int port) {
+    from_port = port;
+    return *this;
+  }
+  GraphEdge& into(int port) {
+    to_port = port;
+    return *this;
+  }
 };
+
+/// From node to node, port 0 of each unless said otherwise.
+inline GraphEdge link(int from, int to) {
+  GraphEdge edge;
+  edge.from = from;
+  edge.to = to;
+  return edge;
+}
 
 struct Graph {
   /// Clock periods in units of 1/30e9 s; divisors of 30e9 so that the frequency is a whole number.

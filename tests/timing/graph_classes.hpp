@@ -21,7 +21,7 @@ inline bool crosses_clocks(const Graph& graph) {
   return false;
 }
 
-/// Whether some FIFO lets a token or a place through in the same cycle.
+/// Whether some FIFO lets a token or a slot through in the same cycle.
 inline bool passes_in_a_cycle(const Graph& graph) {
   for (const GraphEdge& edge : graph.edges) {
     if (edge.write_to_read == 0 || edge.read_to_write == 0) return true;

@@ -167,18 +167,9 @@ RC_GTEST_PROP(Leap, TheFillOfAFifoIsKnownWithin, ()) {
 // source -> stage -> stage -> sink, all actors, `tokens` of them.
 Graph chain(std::uint32_t tokens, std::uint32_t interval, std::uint32_t latency, std::uint32_t depth) {
   Graph graph;
-  GraphNode stage;
-  stage.parts = {{tokens, {{1, 1, 1, 1}}}};
-  stage.latency = latency;
-  GraphNode slow = stage;
-  slow.parts = {{tokens, {{1, interval, 1, 1}}}};
-  GraphNode source, sink;
-  source.kind = GraphNode::Kind::kSource;
-  sink.kind = GraphNode::Kind::kSink;
-  source.stalls.assign(tokens, 0);
-  sink.stalls.assign(tokens, 0);
-  graph.nodes = {source, stage, slow, sink};
-  graph.edges = {{0, 0, 1, 0, depth}, {1, 0, 2, 0, depth}, {2, 0, 3, 0, depth}};
+  graph.nodes = {source(no_stalls(tokens)), copying(latency, tokens), copying(latency, tokens, interval),
+                 sink(no_stalls(tokens))};
+  graph.edges = {link(0, 1).deep(depth), link(1, 2).deep(depth), link(2, 3).deep(depth)};
   return graph;
 }
 

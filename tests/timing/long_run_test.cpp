@@ -42,8 +42,8 @@ class Beat final : public Stage {
       out_ = std::make_unique<StreamOut<int>>("out");
       (*out_)(*out);
     }
-    set_schedule(Schedule().run({kTokens, pace.interval, static_cast<PortMask>(in != nullptr ? 1 : 0),
-                                 static_cast<PortMask>(out != nullptr ? 1 : 0)}));
+    set_schedule(Schedule().run(
+        fires(kTokens).reads(in != nullptr ? 1 : 0).writes(out != nullptr ? 1 : 0).every(pace.interval)));
     set_frame_limit(1);
   }
 
@@ -87,7 +87,7 @@ TEST(LongRun, DatesDoNotDriftDownstream) {
   EXPECT_EQ(graph.third.frames()[0].last_firing.count(), cross(second + 7, kFastHz, kVideoHz, 3));
 }
 
-// The last stage sets the pace: the others wait for room. A FIFO and a pipeline of one place each hold four
+// The last stage sets the pace: the others wait for room. A FIFO and a pipeline of one slot each hold four
 // tokens.
 TEST(LongRun, DatesDoNotDriftUpstream) {
   constexpr std::int64_t kInterval = 427'001;

@@ -82,9 +82,9 @@ class ForeignMemory final : public sc_core::sc_module {
       payload.set_response_status(::tlm::TLM_ADDRESS_ERROR_RESPONSE);
       return 0;
     }
-    std::uint8_t* place = bytes_.data() + begin;
-    if (payload.is_read()) std::copy_n(place, length, payload.get_data_ptr());
-    if (payload.is_write()) std::copy_n(payload.get_data_ptr(), length, place);
+    std::uint8_t* stored = bytes_.data() + begin;
+    if (payload.is_read()) std::copy_n(stored, length, payload.get_data_ptr());
+    if (payload.is_write()) std::copy_n(payload.get_data_ptr(), length, stored);
     payload.set_response_status(::tlm::TLM_OK_RESPONSE);
     return payload.get_data_length();
   }

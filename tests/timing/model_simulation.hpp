@@ -102,19 +102,10 @@ class ModelSimulation {
  private:
   // A source or sink as the schedule of one frame.
   static GraphNode as_stage(const GraphNode& node) {
-    GraphNode stage;
-    stage.kind = GraphNode::Kind::kStage;
-    stage.clock = node.clock;
-    stage.latency = 0;
-    const bool source = node.kind == GraphNode::Kind::kSource;
-    for (const std::uint32_t stall : node.stalls) {
-      GraphPart part;
-      if (stall > 0) part.phases.push_back({1, stall, 0, 0});
-      part.phases.push_back(
-          {1, 1, static_cast<PortMask>(source ? 0 : 1), static_cast<PortMask>(source ? 1 : 0)});
-      stage.parts.push_back(part);
-    }
-    return stage;
+    const Phase token = node.kind == GraphNode::Kind::kSource ? fires().writes(1) : fires().reads(1);
+    GraphNode as = test::stage(0).on_clock(node.clock);
+    for (const std::uint32_t stall : node.stalls) as.parts.push_back({1, {idles(stall), token}});
+    return as;
   }
   const ClockDomain& clock(const GraphNode& node) const {
     return *clocks_[static_cast<std::size_t>(node.clock)];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A block that is neither a Stage nor a thread: an actor of its own, whose pace depends on what it has seen.
-// It stands between ordinary stages, and nobody notices.
+// It stands between ordinary stages, and none of them notices.
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -46,27 +46,16 @@ class OwnPace final : public sc_core::sc_module, public Actor {
   std::uint64_t token_ = 0;
 };
 
-GraphNode stage(std::vector<GraphPart> parts, std::uint32_t latency) {
-  GraphNode node;
-  node.parts = std::move(parts);
-  node.latency = latency;
-  return node;
-}
-
-const std::vector<GraphPart> kSource{{kTokens, {{1, 1, 0, 1}}}};
-const std::vector<GraphPart> kCopy{{kTokens, {{1, 1, 1, 1}}}};
-const std::vector<GraphPart> kSink{{kTokens, {{1, 1, 1, 0}}}};
-
 // source -> copy -> middle -> copy -> sink
 template <class Middle, class MakeMiddle>
 std::string dates_with(const MakeMiddle& make) {
   Dataflow dataflow("dataflow");
   const ClockDomain clock("clock", Hertz(100'000'000));
-  GraphStage source("source", clock, dataflow, stage(kSource, 0), 1, 0, 1);
-  GraphStage before("before", clock, dataflow, stage(kCopy, 3), 0, 1, 1);
+  GraphStage source("source", clock, dataflow, stage(0).times(kTokens, {fires().writes(1)}), 1, 0, 1);
+  GraphStage before("before", clock, dataflow, copying(3, kTokens), 0, 1, 1);
   const std::unique_ptr<Middle> middle = make(clock, dataflow);
-  GraphStage after("after", clock, dataflow, stage(kCopy, 4), 0, 1, 1);
-  GraphStage sink("sink", clock, dataflow, stage(kSink, 0), 0, 1, 0);
+  GraphStage after("after", clock, dataflow, copying(4, kTokens), 0, 1, 1);
+  GraphStage sink("sink", clock, dataflow, stage(0).times(kTokens, {fires().reads(1)}), 0, 1, 0);
   std::vector<std::unique_ptr<Stream<int>>> streams;
   std::vector<EdgeDates> dates(4);
   std::vector<std::unique_ptr<DateLog>> logs;
@@ -114,9 +103,10 @@ TEST(OwnActor, HasTheDatesOfAStageThatDoesTheSameBySchedule) {
     });
   });
   const std::string by_schedule = in_child([] {
-    std::vector<GraphPart> parts;
-    for (std::uint64_t token = 0; token < kTokens; ++token) parts.push_back({1, {{1, pace(token), 1, 1}}});
-    const GraphNode node = stage(parts, 0);
+    GraphNode node = stage(0);
+    for (std::uint64_t token = 0; token < kTokens; ++token) {
+      node.parts.push_back({1, {fires().reads(1).writes(1).every(pace(token))}});
+    }
     return dates_with<StageMiddle>([&](const ClockDomain& clock, Dataflow& dataflow) {
       return std::unique_ptr<StageMiddle>(new StageMiddle{{"middle", clock, dataflow, node, 0, 1, 1}});
     });

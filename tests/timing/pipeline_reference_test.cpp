@@ -71,11 +71,11 @@ RC_GTEST_PROP(PipelineReference, EveryDateWithAnyDepthsAndTheSameDeadlocks, ()) 
   RC_ASSERT(outcome.differences == "");
 }
 
-// Where nobody stalls, deeper FIFOs on the paths that meet again would not let a frame leave any earlier.
+// Where nothing stalls, deeper FIFOs on the paths that meet again would not let a frame leave any earlier.
 // (They could let the next one, or the next tile, begin while this one is flushed.)
 RC_GTEST_PROP(PipelineReference, AutomaticDepthsCostNoCycle, ()) {
   PipelineCase c = random_pipeline(Depths::kAutomatic, 1, 1, 1);
-  // A token a cycle needs places for the way there and back.
+  // A token a cycle needs slots for the way there and back.
   c.config.streams.default_depth =
       std::max(2 * (1 + c.config.streams.synchroniser_stages), c.config.streams.default_depth);
   for (auto* stalls : {&c.left, &c.right, &c.map_stalls, &c.output}) {

@@ -63,10 +63,10 @@ class PipelineSimulation {
         dataflow_("dataflow", leap_interval),
         pipeline_("pipeline", case_.config, case_.map, c.tiles,
                   {clock_, dataflow_, c.tiles.width, c.height()}),
-        left_node_(end(GraphNode::Kind::kSource, c.left)),
-        right_node_(end(GraphNode::Kind::kSource, c.right)),
-        map_node_(end(GraphNode::Kind::kSource, c.map_stalls)),
-        output_node_(end(GraphNode::Kind::kSink, c.output)),
+        left_node_(source(c.left)),
+        right_node_(source(c.right)),
+        map_node_(source(c.map_stalls)),
+        output_node_(sink(c.output)),
         left_("left", clock_, left_node_),
         right_("right", clock_, right_node_),
         map_("map", clock_, map_node_),
@@ -145,12 +145,6 @@ class PipelineSimulation {
   }
 
  private:
-  static GraphNode end(GraphNode::Kind kind, const std::vector<std::uint32_t>& stalls) {
-    GraphNode node;
-    node.kind = kind;
-    node.stalls = stalls;
-    return node;
-  }
   static GraphNode node(const Stage& stage) {
     GraphNode node;
     node.latency = stage.latency();
@@ -170,8 +164,8 @@ class PipelineSimulation {
     StoreEnds(const std::string& what, const ClockDomain& clock,
               const std::vector<std::uint32_t>& kept_stalls,
               const std::vector<std::uint32_t>& returned_stalls)
-        : kept_node(end(GraphNode::Kind::kSink, kept_stalls)),
-          returned_node(end(GraphNode::Kind::kSource, returned_stalls)),
+        : kept_node(sink(kept_stalls)),
+          returned_node(source(returned_stalls)),
           kept((what + "_kept").c_str(), clock, kept_node),
           returned((what + "_returned").c_str(), clock, returned_node) {}
     GraphNode kept_node, returned_node;

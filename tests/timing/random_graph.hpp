@@ -55,21 +55,17 @@ class RandomGraph {
   }
 
   void source() {
-    GraphNode node;
-    node.kind = GraphNode::Kind::kSource;
-    node.clock = random_clock();
-    node.stalls = stalls(static_cast<std::uint32_t>(pixels_ * frames_));
-    graph_.nodes.push_back(node);
+    const int clock = random_clock();
+    graph_.nodes.push_back(
+        test::source(stalls(static_cast<std::uint32_t>(pixels_ * frames_))).on_clock(clock));
     open_output(0, 1);
   }
 
   void sink() {
     const Open from = take();
-    GraphNode node;
-    node.kind = GraphNode::Kind::kSink;
-    node.clock = random_clock();
-    node.stalls = stalls(static_cast<std::uint32_t>(pixels_ * frames_) * from.rate);
-    graph_.nodes.push_back(node);
+    const int clock = random_clock();
+    graph_.nodes.push_back(
+        test::sink(stalls(static_cast<std::uint32_t>(pixels_ * frames_) * from.rate)).on_clock(clock));
     connect(from, 0);
   }
 
@@ -167,15 +163,16 @@ class RandomGraph {
     const auto pixel = [&](bool reads, bool writes) {  // inputs in the first beats, outputs in the last ones
       std::vector<Phase> phases;
       for (std::uint32_t beat = 0; beat < beats; ++beat) {
-        Phase phase{1, interval, 0, 0};
+        unsigned consume = 0;
+        unsigned produce = 0;
         for (std::size_t i = 0; i < in_rates.size(); ++i) {
-          if (reads && beat < in_rates[i]) phase.consume = static_cast<PortMask>(phase.consume | (1u << i));
+          if (reads && beat < in_rates[i]) consume |= 1u << i;
         }
         for (std::size_t i = 0; i < out_rates.size(); ++i) {
-          if (writes && beat >= beats - out_rates[i])
-            phase.produce = static_cast<PortMask>(phase.produce | (1u << i));
+          if (writes && beat >= beats - out_rates[i]) produce |= 1u << i;
         }
-        if (phase.consume != 0 || phase.produce != 0) phases.push_back(phase);
+        if ((consume | produce) != 0)
+          phases.push_back(fires().reads(consume).writes(produce).every(interval));
       }
       return phases;
     };
@@ -185,7 +182,7 @@ class RandomGraph {
     const int row_overhead = number(0, 4) == 0 ? number(1, 9) : 0;
     for (int done = ahead; done < pixels_; done += width_) {
       parts.push_back({static_cast<std::uint64_t>(std::min(width_, pixels_ - done)), pixel(true, true)});
-      if (row_overhead > 0) parts.push_back({1, {Phase{1, static_cast<std::uint32_t>(row_overhead), 0, 0}}});
+      if (row_overhead > 0) parts.push_back({1, {idles(static_cast<std::uint32_t>(row_overhead))}});
     }
     parts.push_back({static_cast<std::uint64_t>(ahead), pixel(false, true)});
     graph_.nodes.back().parts = parts;

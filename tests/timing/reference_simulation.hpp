@@ -2,9 +2,9 @@
 // The reference for every date: a plain simulation that goes through time edge by edge and moves one token at
 // a time through explicit registers, as the circuit does. It shares no code with the model.
 //
-// A FIFO may let a token or a place through in the same cycle. So the nodes are gone through, at one time,
+// A FIFO may let a token or a slot through in the same cycle. So the nodes are gone through, at one time,
 // until none moves any more: what a combinational path would settle to. A move never takes away what another
-// one needs, each token and each place having one taker, so the end does not depend on the order of the
+// one needs, each token and each slot having one taker, so the end does not depend on the order of the
 // nodes. Nodes that wait for each other within one cycle do not move.
 #pragma once
 
@@ -63,7 +63,7 @@ class ReferenceSimulation {
  private:
   struct Fifo {
     std::deque<std::int64_t> held;   // times of writing of the tokens not read
-    std::deque<std::int64_t> freed;  // times of reading whose place is not writable yet
+    std::deque<std::int64_t> freed;  // times of reading whose slot is not writable yet
     bool written = false;            // in the present cycle
     EdgeDates dates;
   };
@@ -149,13 +149,13 @@ class ReferenceSimulation {
       fifos_[e].written = true;
     }
   }
-  // At the end of a cycle. A place that was read in it still counts where it is free from a later edge on
+  // At the end of a cycle. A slot that was read in it still counts where it is free from a later edge on
   // only.
   void count_tokens(std::size_t e, std::int64_t time) {
     Fifo& fifo = fifos_[e];
     if (!fifo.written) return;
     fifo.written = false;
-    has_room(e, time);  // forgets the places that are free by now
+    has_room(e, time);  // forgets the slots that are free by now
     fifo.dates.high_water = std::max(fifo.dates.high_water, fifo.held.size() + fifo.freed.size());
   }
 

@@ -49,16 +49,12 @@ class StreamCalls final : public StreamListener {
 // A source, a stage that reads a pixel in each of 3000 cycles of a row and then pauses, and a sink in kernel
 // time that comes too late now and then, so that leaps are many.
 Graph rows() {
-  GraphNode source, stage, sink;
-  source.kind = GraphNode::Kind::kSource;
-  sink.kind = GraphNode::Kind::kSink;
-  source.stalls.assign(9000, 0);
-  sink.stalls.assign(9000, 0);
-  for (const std::size_t late : {700U, 2500U, 6100U}) sink.stalls[late] = 100;
-  stage.parts = {{3000, {{1, 1, 1, 1}}}, {1, {{1, 50, 0, 0}}}};
+  std::vector<std::uint32_t> late = no_stalls(9000);
+  for (const std::size_t token : {700U, 2500U, 6100U}) late[token] = 100;
   Graph graph;
-  graph.nodes = {source, stage, sink};
-  graph.edges = {{0, 0, 1, 0, 4}, {1, 0, 2, 0, 2000}};
+  graph.nodes = {source(no_stalls(9000)),
+                 stage(1).times(3000, {fires().reads(1).writes(1)}).times(1, {idles(50)}), sink(late)};
+  graph.edges = {link(0, 1).deep(4), link(1, 2).deep(2000)};
   return graph;
 }
 

@@ -164,14 +164,9 @@ RC_GTEST_PROP(Tap, TellsValuesAndDatesOfRandomGraphs, ()) {
 TEST(Tap, TellsValuesAndDatesOfEveryKindOfFifo) {
   for (const FifoKind kind : {FifoKind::kRegistered, FifoKind::kFirstWordFallThrough, FifoKind::kBlockRam,
                               FifoKind::kAsynchronous}) {
-    GraphNode source, sink;
-    source.kind = GraphNode::Kind::kSource;
-    source.stalls = {0, 0, 3, 0, 0, 0, 1, 0};
-    sink.kind = GraphNode::Kind::kSink;
-    sink.stalls = {5, 0, 0, 0, 0, 7, 0, 0};
     Graph graph;
-    graph.nodes = {source, sink};
-    graph.edges = {GraphEdge{0, 0, 1, 0, 3}.of_kind(kind)};
+    graph.nodes = {source({0, 0, 3, 0, 0, 0, 1, 0}), sink({5, 0, 0, 0, 0, 7, 0, 0})};
+    graph.edges = {link(0, 1).deep(3).of_kind(kind)};
     Handing handing;
     handing.tap.values_per_token = 2;
     handing.tokens = 8;

@@ -204,7 +204,7 @@ TEST(DmaReader, AShortLastBurstTakesLessTime) {
 }
 
 TEST(DmaReader, ReservesAPlaceInItsFifoForEachRequest) {
-  // Nobody reads: two places, two requests.
+  // No token is read: two slots, two requests.
   ReaderBench<BusMemoryTarget> b(engine(16, 4, 2), 0, 0, plain_memory(), memory_clock());
   b.reader.start({0, {160}, false, nullptr});
   sc_core::sc_start();

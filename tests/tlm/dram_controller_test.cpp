@@ -99,8 +99,8 @@ RC_GTEST_PROP(DramController, EveryCommandIsThatOfTheClockByClockReference, (std
     controller.run_until(clock, done);
     if (burst_of_traffic && draw() % load == 0) {
       DramController::Burst burst;
-      burst.place = {static_cast<std::uint32_t>(draw() % static_cast<unsigned>(timing.banks)),
-                     static_cast<std::uint32_t>(draw() % rows)};
+      burst.location = {static_cast<std::uint32_t>(draw() % static_cast<unsigned>(timing.banks)),
+                        static_cast<std::uint32_t>(draw() % rows)};
       burst.write = draw() % 100 < writes;
       burst.tag = submitted;
       const bool room = controller.room(burst.write);
@@ -123,10 +123,10 @@ RC_GTEST_PROP(DramController, EveryCommandIsThatOfTheClockByClockReference, (std
 }
 
 // Clocks from entry to the last beat of one read.
-std::int64_t latency(DramController& controller, const DramPlace& place, std::int64_t clock) {
+std::int64_t latency(DramController& controller, const DramLocation& location, std::int64_t clock) {
   std::vector<DramController::Done> done;
   controller.run_until(clock + 1, done);
-  controller.submit({place, 0, false}, clock);
+  controller.submit({location, 0, false}, clock);
   controller.run_until(clock + 200, done);
   return done.back().data_end - clock;
 }

@@ -138,7 +138,7 @@ class SteppedMemory {
     Traffic& t = ports_[current_][head.index];
     if (head.done == 0 && !t.write) reads_.push_back({current_, head.index, bursts(t), 0});
     const std::uint64_t at = (t.address / burst() + head.done) * burst();
-    controller_.submit({address_.place(at), current_ * 100000 + head.index, t.write}, clock);
+    controller_.submit({address_.locate(at), current_ * 100000 + head.index, t.write}, clock);
     if (++head.done < bursts(t)) return;
     t.entered = date(clock + 1);
     if (t.write) t.ready = date(clock + 1 + dram_.latency);
@@ -229,7 +229,7 @@ std::string differences(std::uint32_t seed) {
       const Traffic& t = traffic[port][i];
       const ProtocolInitiator::Times& times = b[port].times[i];
       bytes += t.bytes;
-      // Its place is free when an edge has passed; who waits for it is told at the next one.
+      // Its slot is free when an edge has passed; who waits for it gets it at the next one.
       std::uint64_t taken = times.begin_request.value();
       if (i >= target.queue_depth) {
         const std::uint64_t next_edge = traffic[port][i - target.queue_depth].entered;

@@ -206,7 +206,7 @@ TEST(Memory, AnAnnotatedDelayIsTheTimeOfTheRequest) {
   Bench b(t);
   b.thread([&] {
     b[0].send(::tlm::TLM_READ_COMMAND, 0, 64, ns(5.5));  // served at edge 6
-    b[0].send(::tlm::TLM_READ_COMMAND, 0, 64, ns(100));  // its place is free before it comes
+    b[0].send(::tlm::TLM_READ_COMMAND, 0, 64, ns(100));  // its slot is free before it comes
   });
   sc_core::sc_start();
   expect_near(b.responses(), {6 + 18, 100 + 18});

@@ -59,19 +59,19 @@ class NaiveDram {
     }
     Queue& queue = writing_ ? writes_ : reads_;
     for (std::size_t i = 0; i < queue.size(); ++i) {
-      const DramPlace place = queue[i].place;
+      const DramLocation location = queue[i].location;
       DramCommand next = writing_ ? DramCommand::kWrite : DramCommand::kRead;
-      if (open_row(place.bank) != place.row) {
+      if (open_row(location.bank) != location.row) {
         const bool older = std::any_of(queue.begin(), queue.begin() + static_cast<std::ptrdiff_t>(i),
-                                       [&](const auto& o) { return o.place.bank == place.bank; });
+                                       [&](const auto& o) { return o.location.bank == location.bank; });
         const bool wanted = std::any_of(queue.begin(), queue.end(), [&](const auto& o) {
-          return o.place.bank == place.bank && open_row(place.bank) == o.place.row;
+          return o.location.bank == location.bank && open_row(location.bank) == o.location.row;
         });
         if (older || wanted) continue;
-        next = open_row(place.bank) < 0 ? DramCommand::kActivate : DramCommand::kPrecharge;
+        next = open_row(location.bank) < 0 ? DramCommand::kActivate : DramCommand::kPrecharge;
       }
-      if (!allowed(now, next, place.bank)) continue;
-      issue({now, next, place.bank, place.row});
+      if (!allowed(now, next, location.bank)) continue;
+      issue({now, next, location.bank, location.row});
       if (next == DramCommand::kRead || next == DramCommand::kWrite) {
         queue.erase(queue.begin() + static_cast<std::ptrdiff_t>(i));
       }

@@ -109,9 +109,9 @@ class RandomMemory final : public sc_core::sc_module {
     return payload.get_data_length();
   }
   void access(::tlm::tlm_generic_payload& payload) {
-    std::uint8_t* place = bytes.data() + payload.get_address();
-    if (payload.is_read()) std::memcpy(payload.get_data_ptr(), place, payload.get_data_length());
-    if (payload.is_write()) std::memcpy(place, payload.get_data_ptr(), payload.get_data_length());
+    std::uint8_t* stored = bytes.data() + payload.get_address();
+    if (payload.is_read()) std::memcpy(payload.get_data_ptr(), stored, payload.get_data_length());
+    if (payload.is_write()) std::memcpy(stored, payload.get_data_ptr(), payload.get_data_length());
     payload.set_response_status(::tlm::TLM_OK_RESPONSE);
   }
 

@@ -8,10 +8,10 @@ namespace {
 
 TEST(Schedule, EmptyPiecesAreLeftOut) {
   Schedule schedule;
-  schedule.repeat(0, {{1, 1, 1, 1}});
+  schedule.repeat(0, {fires().reads(1).writes(1)});
   schedule.repeat(5, {});
-  schedule.repeat(5, {{0, 1, 1, 1}});
-  schedule.run({0, 1, 1, 1});
+  schedule.repeat(5, {fires(0).reads(1).writes(1)});
+  schedule.run(fires(0).reads(1).writes(1));
   EXPECT_TRUE(schedule.empty());
   EXPECT_TRUE(schedule.phases().empty());
   EXPECT_EQ(schedule.cycles(), 0u);
@@ -19,7 +19,10 @@ TEST(Schedule, EmptyPiecesAreLeftOut) {
 
 TEST(Schedule, SinglePiecesJoinInOneSegment) {
   Schedule schedule;
-  schedule.run({2, 1, 1, 0}).run({3, 1, 0, 1}).repeat(4, {{1, 1, 1, 1}}).run({1, 7, 0, 0});
+  schedule.run(fires(2).reads(1))
+      .run(fires(3).writes(1))
+      .repeat(4, {fires().reads(1).writes(1)})
+      .run(idles(7));
   ASSERT_EQ(schedule.segments().size(), 3u);
   EXPECT_EQ(schedule.segments()[0].phase_count, 2u);
   EXPECT_EQ(schedule.segments()[1].repeat, 4u);
@@ -30,7 +33,7 @@ TEST(Schedule, SinglePiecesJoinInOneSegment) {
 TEST(Schedule, SumsByHand) {
   // 10 rows of: 8 pixels at 2 cycles that read port 0 and write ports 0 and 2, 3 idle cycles; then 100 idle.
   Schedule schedule;
-  schedule.repeat(10, {{8, 2, 0b1, 0b101}, {1, 3, 0, 0}}).run({1, 100, 0, 0});
+  schedule.repeat(10, {fires(8).reads(0b1).writes(0b101).every(2), idles(3)}).run(idles(100));
   EXPECT_EQ(schedule.cycles(), 10u * (8 * 2 + 3) + 100);
   EXPECT_EQ(schedule.consumed(0), 80u);
   EXPECT_EQ(schedule.consumed(1), 0u);
@@ -41,7 +44,7 @@ TEST(Schedule, SumsByHand) {
 
 TEST(Schedule, CountsBeyond32Bits) {
   Schedule schedule;
-  schedule.repeat(1ull << 33, {{3, 5, 1, 1}});
+  schedule.repeat(1ull << 33, {fires(3).reads(1).writes(1).every(5)});
   EXPECT_EQ(schedule.cycles(), 15ull << 33);
   EXPECT_EQ(schedule.produced(0), 3ull << 33);
 }

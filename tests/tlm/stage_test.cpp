@@ -19,35 +19,17 @@ namespace {
 using Dates = std::vector<std::int64_t>;
 constexpr std::uint64_t kThreads = ~0ull;
 
-GraphNode stage(std::uint32_t latency, std::vector<GraphPart> parts) {
-  GraphNode node;
-  node.latency = latency;
-  node.parts = std::move(parts);
-  return node;
-}
-GraphNode end(GraphNode::Kind kind, std::vector<std::uint32_t> stalls) {
-  GraphNode node;
-  node.kind = kind;
-  node.stalls = std::move(stalls);
-  return node;
-}
-GraphNode source(std::vector<std::uint32_t> stalls) {
-  return end(GraphNode::Kind::kSource, std::move(stalls));
-}
-GraphNode sink(std::vector<std::uint32_t> stalls) { return end(GraphNode::Kind::kSink, std::move(stalls)); }
-std::vector<std::uint32_t> zeros(std::size_t count) { return std::vector<std::uint32_t>(count, 0); }
-
 // source 0 -> stage 1 -> sink 2; edge 0 into the stage, edge 1 out of it.
 Graph chain(const std::vector<std::uint32_t>& in, const GraphNode& middle,
             const std::vector<std::uint32_t>& out, std::uint32_t out_depth = 16) {
   Graph graph;
   graph.nodes = {source(in), middle, sink(out)};
-  graph.edges = {{0, 0, 1, 0, 16}, {1, 0, 2, 0, out_depth}};
+  graph.edges = {link(0, 1).deep(16), link(1, 2).deep(out_depth)};
   return graph;
 }
 
 TEST(Stage, CombinationalReadsAndWritesInOneCycle) {
-  ModelSimulation model(chain(zeros(4), stage(0, {{4, {{1, 1, 1, 1}}}}), zeros(4)), kThreads);
+  ModelSimulation model(chain(no_stalls(4), copying(0, 4), no_stalls(4)), kThreads);
   const auto dates = model.run();
   EXPECT_EQ(dates[0].read, Dates({1, 2, 3, 4}));
   EXPECT_EQ(dates[1].written, Dates({1, 2, 3, 4}));
@@ -55,25 +37,25 @@ TEST(Stage, CombinationalReadsAndWritesInOneCycle) {
 
 TEST(Stage, CombinationalCountsWhatAFullFifoCosts) {
   // The FIFO of one token is free again in cycle 11, and every second cycle from there.
-  ModelSimulation model(chain(zeros(4), stage(0, {{4, {{1, 1, 1, 1}}}}), {10, 0, 0, 0}, 1), kThreads);
+  ModelSimulation model(chain(no_stalls(4), copying(0, 4), {10, 0, 0, 0}, 1), kThreads);
   EXPECT_EQ(model.run()[1].written, Dates({1, 11, 13, 15}));
   EXPECT_EQ(model.stream(1).statistics().blocked_on_full.count(), 9 + 1 + 1);
   EXPECT_EQ(model.stage(1).statistics().blocked.count(), 9 + 1 + 1);
 }
 
 TEST(Stage, FiresOnceAnInterval) {
-  ModelSimulation model(chain(zeros(4), stage(0, {{4, {{1, 3, 1, 1}}}}), zeros(4)), kThreads);
+  ModelSimulation model(chain(no_stalls(4), copying(0, 4, 3), no_stalls(4)), kThreads);
   EXPECT_EQ(model.run()[1].written, Dates({1, 4, 7, 10}));
 }
 
 TEST(Stage, AWaitForInputDoesNotShortenTheInterval) {
   // Tokens are readable in 1, 2 and 10: the third firing is late, the fourth three cycles after it.
-  ModelSimulation model(chain({0, 0, 7, 0}, stage(0, {{4, {{1, 3, 1, 1}}}}), zeros(4)), kThreads);
+  ModelSimulation model(chain({0, 0, 7, 0}, copying(0, 4, 3), no_stalls(4)), kThreads);
   EXPECT_EQ(model.run()[0].read, Dates({1, 4, 10, 13}));
 }
 
 TEST(Stage, WritesLatencyCyclesAfterReading) {
-  ModelSimulation model(chain(zeros(3), stage(5, {{3, {{1, 1, 1, 1}}}}), zeros(3)), kThreads);
+  ModelSimulation model(chain(no_stalls(3), copying(5, 3), no_stalls(3)), kThreads);
   const auto dates = model.run();
   EXPECT_EQ(dates[0].read, Dates({1, 2, 3}));
   EXPECT_EQ(dates[1].written, Dates({6, 7, 8}));
@@ -83,7 +65,7 @@ TEST(Stage, WritesLatencyCyclesAfterReading) {
 TEST(Stage, ThePipelineHoldsLatencyFiringsUnderBackPressure) {
   // The sink comes in cycle 20. Firing 0 is in the FIFO, firings 1 to 3 in the three registers; firing 4
   // enters when firing 1 leaves, one cycle after the read.
-  ModelSimulation model(chain(zeros(6), stage(3, {{6, {{1, 1, 1, 1}}}}), {20, 0, 0, 0, 0, 0}, 1), kThreads);
+  ModelSimulation model(chain(no_stalls(6), copying(3, 6), {20, 0, 0, 0, 0, 0}, 1), kThreads);
   const auto dates = model.run();
   EXPECT_EQ(dates[0].read, Dates({1, 2, 3, 4, 21, 23}));
   EXPECT_EQ(dates[1].written, Dates({4, 21, 23, 25, 27, 29}));
@@ -91,22 +73,28 @@ TEST(Stage, ThePipelineHoldsLatencyFiringsUnderBackPressure) {
 }
 
 TEST(Stage, CombinationalHoldsNothingUnderBackPressure) {
-  ModelSimulation model(chain(zeros(3), stage(0, {{3, {{1, 1, 1, 1}}}}), {20, 0, 0}, 1), kThreads);
+  ModelSimulation model(chain(no_stalls(3), copying(0, 3), {20, 0, 0}, 1), kThreads);
   EXPECT_EQ(model.run()[0].read, Dates({1, 21, 23}));
 }
 
 TEST(Stage, LookAheadReadsBeforeItWritesAndFlushesAfterwards) {
   // Two pixels ahead, five in all.
-  const GraphNode window = stage(1, {{2, {{1, 1, 1, 0}}}, {3, {{1, 1, 1, 1}}}, {2, {{1, 1, 0, 1}}}});
-  ModelSimulation model(chain(zeros(5), window, zeros(5)), kThreads);
+  const GraphNode window = stage(1)
+                               .times(2, {fires().reads(1)})
+                               .times(3, {fires().reads(1).writes(1)})
+                               .times(2, {fires().writes(1)});
+  ModelSimulation model(chain(no_stalls(5), window, no_stalls(5)), kThreads);
   const auto dates = model.run();
   EXPECT_EQ(dates[0].read, Dates({1, 2, 3, 4, 5}));
   EXPECT_EQ(dates[1].written, Dates({4, 5, 6, 7, 8}));
 }
 
 TEST(Stage, FramesFollowWithoutAGap) {
-  const GraphNode window = stage(1, {{1, {{1, 1, 1, 0}}}, {1, {{1, 1, 1, 1}}}, {1, {{1, 1, 0, 1}}}});
-  ModelSimulation model(chain(zeros(4), window, zeros(4)), kThreads);
+  const GraphNode window = stage(1)
+                               .times(1, {fires().reads(1)})
+                               .times(1, {fires().reads(1).writes(1)})
+                               .times(1, {fires().writes(1)});
+  ModelSimulation model(chain(no_stalls(4), window, no_stalls(4)), kThreads);
   const auto dates = model.run();
   EXPECT_EQ(dates[0].read, Dates({1, 2, 4, 5}));
   EXPECT_EQ(dates[1].written, Dates({3, 4, 6, 7}));
@@ -122,16 +110,16 @@ TEST(Stage, FramesFollowWithoutAGap) {
 
 TEST(Stage, OverheadsKeepItBusyAfterRowsAndFrames) {
   // Rows of two pixels, 5 idle cycles after each, 100 after the frame of two rows.
-  const GraphNode rows = stage(0, {{2, {{2, 1, 1, 1}, {1, 5, 0, 0}}}, {1, {{1, 100, 0, 0}}}});
-  ModelSimulation model(chain(zeros(6), rows, zeros(6)), kThreads);
+  const GraphNode rows = stage(0).times(2, {fires(2).reads(1).writes(1), idles(5)}).times(1, {idles(100)});
+  ModelSimulation model(chain(no_stalls(6), rows, no_stalls(6)), kThreads);
   EXPECT_EQ(model.run()[0].read, Dates({1, 2, 8, 9, 115, 116}));
   EXPECT_EQ(model.stage(1).statistics().blanking.count(), 5 * 3 + 100);
 }
 
 TEST(Stage, AForkWritesBothOrNeither) {
   Graph graph;
-  graph.nodes = {source(zeros(4)), stage(0, {{4, {{1, 1, 1, 1}}}}), sink(zeros(4)), sink({10, 0, 0, 0})};
-  graph.edges = {{0, 0, 1, 0, 16}, {1, 0, 2, 0, 16}, {1, 0, 3, 0, 2}};
+  graph.nodes = {source(no_stalls(4)), copying(0, 4), sink(no_stalls(4)), sink({10, 0, 0, 0})};
+  graph.edges = {link(0, 1).deep(16), link(1, 2).deep(16), link(1, 3).deep(2)};
   ModelSimulation model(graph, kThreads);
   const auto dates = model.run();
   EXPECT_EQ(dates[1].written, Dates({1, 2, 11, 12}));  // the slow branch holds two
@@ -141,7 +129,7 @@ TEST(Stage, AForkWritesBothOrNeither) {
 }
 
 // Firings that only write are gone through in one go where they write one stream, and one by one where they
-// write two: with a second one that never holds anybody back, all is the same.
+// write two: with a second one that never holds anything back, all is the same.
 RC_GTEST_PROP(StageWriters, InOneGoAsOneByOne, ()) {
   const auto number = [](std::uint32_t from, std::uint32_t to) {
     return *rc::gen::inRange<std::uint32_t>(from, to + 1);
@@ -150,9 +138,10 @@ RC_GTEST_PROP(StageWriters, InOneGoAsOneByOne, ()) {
   const std::uint32_t first = number(0, 1);  // whether the firing that reads writes, too
   const std::uint32_t words = number(1, 12);
   const std::uint32_t others = number(0, 3);
-  const GraphNode burst =
-      stage(0, {{1, {{1, number(1, 3), 1, static_cast<PortMask>(first)}, {words, number(1, 3), 0, 1}}},
-                {others, {{1, 2, 0, 0}, {2, 1, 0, 1}}}});
+  const GraphNode burst = stage(0)
+                              .times(1, {fires().reads(1).writes(first).every(number(1, 3)),
+                                         fires(words).writes(1).every(number(1, 3))})
+                              .times(others, {idles(2), fires(2).writes(1)});
   std::vector<std::uint32_t> in, out;
   for (std::uint32_t i = 0; i < frames; ++i) in.push_back(number(0, 9));
   for (std::uint32_t i = 0; i < frames * (first + words + 2 * others); ++i) {
@@ -160,8 +149,8 @@ RC_GTEST_PROP(StageWriters, InOneGoAsOneByOne, ()) {
   }
   Graph one = chain(in, burst, out, number(1, 8));
   Graph two = one;
-  two.nodes.push_back(sink(zeros(out.size())));
-  two.edges.push_back({1, 0, 3, 0, 1024});
+  two.nodes.push_back(sink(no_stalls(out.size())));
+  two.edges.push_back(link(1, 3).deep(1024));
   const auto run = [](const Graph& graph) {
     return in_child([&graph] {
       ModelSimulation model(graph, kThreads, 0);
@@ -177,9 +166,10 @@ RC_GTEST_PROP(StageWriters, InOneGoAsOneByOne, ()) {
 TEST(Stage, TwoOutputsOfDifferentRates) {
   // Port 0 in each of three beats, port 1 in the last one; the input in the first one.
   Graph graph;
-  graph.nodes = {source(zeros(2)), stage(2, {{2, {{1, 1, 1, 1}, {1, 1, 0, 1}, {1, 1, 0, 3}}}}),
-                 sink(zeros(6)), sink(zeros(2))};
-  graph.edges = {{0, 0, 1, 0, 4}, {1, 0, 2, 0, 4}, {1, 1, 3, 0, 4}};
+  graph.nodes = {source(no_stalls(2)),
+                 stage(2).times(2, {fires().reads(1).writes(1), fires().writes(1), fires().writes(3)}),
+                 sink(no_stalls(6)), sink(no_stalls(2))};
+  graph.edges = {link(0, 1).deep(4), link(1, 2).deep(4), link(1, 3).out_of(1).deep(4)};
   ModelSimulation model(graph, kThreads);
   const auto dates = model.run();
   EXPECT_EQ(dates[0].read, Dates({1, 4}));
@@ -189,8 +179,9 @@ TEST(Stage, TwoOutputsOfDifferentRates) {
 
 TEST(Stage, AJoinWaitsForTheLaterInput) {
   Graph graph;
-  graph.nodes = {source(zeros(2)), source({6, 0}), stage(0, {{2, {{1, 1, 3, 1}}}}), sink(zeros(2))};
-  graph.edges = {{0, 0, 2, 0, 4}, {1, 0, 2, 1, 4}, {2, 0, 3, 0, 4}};
+  graph.nodes = {source(no_stalls(2)), source({6, 0}), stage(0).times(2, {fires().reads(3).writes(1)}),
+                 sink(no_stalls(2))};
+  graph.edges = {link(0, 2).deep(4), link(1, 2).into(1).deep(4), link(2, 3).deep(4)};
   ModelSimulation model(graph, kThreads);
   const auto dates = model.run();
   EXPECT_EQ(dates[0].read, Dates({7, 8}));
@@ -202,16 +193,16 @@ TEST(Stage, AJoinWaitsForTheLaterInput) {
 
 TEST(Stage, AFrameLimitEndsASource) {
   Graph graph;
-  graph.nodes = {source({2, 3, 0}), sink(zeros(3))};
-  graph.edges = {{0, 0, 1, 0, 4}};
+  graph.nodes = {source({2, 3, 0}), sink(no_stalls(3))};
+  graph.edges = {link(0, 1).deep(4)};
   ModelSimulation model(graph, 0);  // source and sink as stages, of one frame each
   EXPECT_EQ(model.run()[0].written, Dates({2, 6, 7}));
   EXPECT_EQ(model.stage(0).frames().size(), 1u);
 }
 
 TEST(Stage, ItsTimeIsAccountedFor) {
-  // Readable in 1..4; the sink frees the only place in 10, 12, ...
-  ModelSimulation model(chain(zeros(4), stage(0, {{4, {{1, 2, 1, 1}}}}), {10, 0, 0, 0}, 1), kThreads);
+  // Readable in 1..4; the sink frees the only slot in 10, 12, ...
+  ModelSimulation model(chain(no_stalls(4), copying(0, 4, 2), {10, 0, 0, 0}, 1), kThreads);
   const auto dates = model.run();
   EXPECT_EQ(dates[0].read, Dates({1, 11, 13, 15}));
   const StageStatistics& s = model.stage(1).statistics();
@@ -226,7 +217,7 @@ TEST(Stage, ItsTimeIsAccountedFor) {
 
 TEST(Stage, WaitsForASynchroniserAreTheirOwn) {
   // Written in 0 and 4, readable two synchroniser stages after the next edge, in 3 and 7; ready in 0 and 5.
-  Graph in = chain({0, 3}, stage(0, {{2, {{1, 2, 1, 1}}}}), zeros(2));
+  Graph in = chain({0, 3}, copying(0, 2, 2), no_stalls(2));
   in.edges[0].of_kind(FifoKind::kAsynchronous);
   ModelSimulation model(in, kThreads);
   EXPECT_EQ(model.run()[0].read, Dates({3, 7}));
@@ -236,9 +227,9 @@ TEST(Stage, WaitsForASynchroniserAreTheirOwn) {
   EXPECT_EQ(s.total().count(), 3 + 2 + 2 + 2);
 }
 
-TEST(Stage, WaitsForAPlaceBehindASynchroniserAreToo) {
+TEST(Stage, WaitsForASlotBehindASynchroniserAreToo) {
   // Written in 1, 2, 3, 4, read in 4, 5, ..., so there is room in 7; the stage would have written in 5.
-  Graph out = chain(zeros(8), stage(0, {{8, {{1, 1, 1, 1}}}}), zeros(8), 4);
+  Graph out = chain(no_stalls(8), copying(0, 8), no_stalls(8), 4);
   out.edges[1].of_kind(FifoKind::kAsynchronous);
   ModelSimulation model(out, kThreads);
   EXPECT_EQ(model.run()[1].written, Dates({1, 2, 3, 4, 7, 8, 9, 10}));
@@ -249,7 +240,7 @@ TEST(Stage, WaitsForAPlaceBehindASynchroniserAreToo) {
 
 TEST(Stage, ItsFiringsAreTold) {
   // As above: ready in 0, 3, 13, 15; a token in 1, 2, 3, 4; room in 0, 11, 13, 15.
-  ModelSimulation model(chain(zeros(4), stage(0, {{4, {{1, 2, 1, 1}}}}), {10, 0, 0, 0}, 1), kThreads);
+  ModelSimulation model(chain(no_stalls(4), copying(0, 4, 2), {10, 0, 0, 0}, 1), kThreads);
   FiringLog log(*model.dataflow().stages()[0]);
   model.run();
   EXPECT_EQ(text_of(log.sums), text_of(model.stage(1).statistics()));
@@ -261,8 +252,8 @@ TEST(Stage, ItsFiringsAreTold) {
 
 TEST(Stage, ItsPortsCanBeLookedUp) {
   Graph graph;
-  graph.nodes = {source(zeros(1)), stage(0, {{1, {{1, 1, 1, 1}}}}), sink(zeros(1)), sink(zeros(1))};
-  graph.edges = {{0, 0, 1, 0, 16}, {1, 0, 2, 0, 16}, {1, 0, 3, 0, 2}};
+  graph.nodes = {source(no_stalls(1)), copying(0, 1), sink(no_stalls(1)), sink(no_stalls(1))};
+  graph.edges = {link(0, 1).deep(16), link(1, 2).deep(16), link(1, 3).deep(2)};
   ModelSimulation model(graph, kThreads);
   model.run();
   using Streams = std::vector<const StreamBase*>;
@@ -272,7 +263,8 @@ TEST(Stage, ItsPortsCanBeLookedUp) {
 }
 
 TEST(Stage, AScheduleOfPortsThatDoNotExistIsRefused) {
-  ModelSimulation model(chain(zeros(1), stage(0, {{1, {{1, 1, 0b10, 1}}}}), zeros(1)), kThreads);
+  ModelSimulation model(chain(no_stalls(1), stage(0).times(1, {fires().reads(0b10).writes(1)}), no_stalls(1)),
+                        kThreads);
   EXPECT_THROW(model.run(), std::logic_error);
 }
 

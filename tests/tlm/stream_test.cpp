@@ -161,7 +161,7 @@ TEST(Stream, AWordFallsThroughInTheSameCycle) {
 
 TEST(Stream, ABlockRamTakesTwoCyclesToRead) {
   Channel c(of_kind(FifoKind::kBlockRam, 2), Dates(5, 0), Dates(5, 0));
-  EXPECT_EQ(c.dates.written, Dates({0, 1, 3, 4, 6}));  // the token in the output register takes a place
+  EXPECT_EQ(c.dates.written, Dates({0, 1, 3, 4, 6}));  // the token in the output register takes a slot
   EXPECT_EQ(c.dates.read, Dates({2, 3, 5, 6, 8}));
 }
 
@@ -201,7 +201,7 @@ TEST(Stream, ClocksOfOneFrequencyAreSynchronisedToo) {
 
 TEST(Stream, StatisticsOfAFullStream) {
   Channel c(fifo(2), {0, 0, 0, 0}, {10, 0, 0, 0});
-  // Token 2 is wanted in cycle 2 and written in cycle 11, when the place that was freed in 10 can be written.
+  // Token 2 is wanted in cycle 2 and written in cycle 11, when the slot that was freed in 10 can be written.
   EXPECT_EQ(c.dates.written, Dates({0, 1, 11, 12}));
   const StreamStatistics& s = c.stream.statistics();
   EXPECT_EQ(s.blocked_on_full.count(), 9);
@@ -238,7 +238,7 @@ TEST(Stream, PlacesAheadCanBeReserved) {
   Dates reserved;
   Thread writing("writing", [&] {
     for (std::uint64_t ahead = 0; ahead < 4; ++ahead) {
-      stream.wait_writable(ahead);  // the fourth place is token 0's
+      stream.wait_writable(ahead);  // the fourth slot is token 0's
       reserved.push_back(clock.now().count());
       if (ahead == 2) stream.write(1);
       if (ahead == 2) stream.wait_writable(2);
@@ -260,7 +260,7 @@ TEST(Stream, AReservedPlaceStaysTheSameWhileTokensBeforeItAreWritten) {
   Stream<int> stream("stream", dataflow, clock, clock, fifo(1));
   std::int64_t reserved = -1;
   Thread reserving("reserving", [&] {
-    stream.wait_writable(1);  // token 1, whose place is token 0's
+    stream.wait_writable(1);  // token 1, whose slot is token 0's
     reserved = clock.now().count();
   });
   Thread writing("writing", [&] {

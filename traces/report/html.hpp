@@ -33,7 +33,7 @@ class Table {
 /// A part of the page that the navigation leads to.
 std::string section(std::string_view id, std::string_view title, std::string_view content);
 
-/// A place that report.js draws a chart in; `label` says what it shows, for those who do not see it.
+/// A frame that report.js draws a chart in; `label` says what it shows, for those who do not see it.
 std::string canvas(std::string_view id, std::string_view label, bool tall = false);
 
 }  // namespace parallax
