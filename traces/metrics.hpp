@@ -18,12 +18,14 @@ class MetricError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+using MetricValue = std::variant<std::int64_t, double, std::string, bool, std::vector<std::int64_t>>;
+
 /// One number (or word, or row of numbers) of a result, with all that a reader needs to understand it.
 struct Metric {
   std::string name;
-  std::variant<std::int64_t, double, std::string, bool, std::vector<std::int64_t>> value;
+  MetricValue value;
   std::string unit;         ///< empty for a word
-  std::string description;  ///< one sentence
+  std::string description;  ///< whole sentences
   std::string window;       ///< over what it was measured, for example "frames 2 to 4"
 
   bool is_number() const;
@@ -33,15 +35,15 @@ struct Metric {
   const std::string& word() const;  ///< of a text
 };
 
-/// Results of one thing, which may consist of further things. Text and JSON are made from this one tree, and
-/// JSON is read back into it. A path such as "memory/map/bytes_per_frame" leads to a metric.
+/// Results of one thing (MetricWriter writes them), which may consist of further things. Text and JSON are
+/// made from this one tree, and JSON is read back into it. A path such as "memory/map/bytes_per_frame" leads
+/// to a metric.
 struct MetricGroup {
   std::string name;
   std::vector<Metric> metrics;
   std::vector<MetricGroup> groups;
 
   MetricGroup& group(const std::string& group_name);
-  void add(Metric metric) { metrics.push_back(std::move(metric)); }
 
   /// The metric at a path, or null.
   const Metric* find(std::string_view path) const;

@@ -15,6 +15,7 @@
 #include "platform/commands/command_context.hpp"
 #include "platform/commands/compare_runs_command.hpp"
 #include "platform/commands/config_command.hpp"
+#include "platform/commands/glossary_command.hpp"
 #include "platform/commands/map_command.hpp"
 #include "platform/commands/memory_command.hpp"
 #include "platform/commands/registers_command.hpp"
@@ -117,6 +118,7 @@ int run_command_line(int argc, const char* const* argv, std::ostream& out, std::
   add_scene_command(app, context);
   add_memory_command(app, context);
   add_registers_command(app, context);
+  add_glossary_command(app, context);
   add_report_command(app, context);
   add_compare_runs_command(app, context);
   add_validate_command(app, context);

@@ -13,6 +13,7 @@
 #include "platform/config/dram_device.hpp"
 #include "platform/config/preset.hpp"
 #include "platform/input/address_trace.hpp"
+#include "platform/results/replay_metrics.hpp"
 #include "tlm/dram_replay.hpp"
 #include "tlm/error.hpp"
 #include "traces/metrics.hpp"
@@ -35,40 +36,6 @@ const std::map<std::string, DramMapping>& mappings() {
                                                       {"brc", DramMapping::kBankRowColumn},
                                                       {"rbcg", DramMapping::kRowBankColumnGroup}};
   return all;
-}
-
-MetricGroup measure(const ReplayResult& result, const DramTiming& timing) {
-  const double seconds =
-      static_cast<double>(result.clocks) * static_cast<double>(timing.clock_period_ps) * 1e-12;
-  const double rate = static_cast<double>(result.bytes) / seconds;
-  const DramStatistics& commands = result.commands;
-  const auto count = [](std::uint64_t value) { return static_cast<std::int64_t>(value); };
-  MetricGroup group;
-  const auto add = [&group](const char* name, auto value, const char* unit, const char* description) {
-    group.add({name, value, unit, description, "the whole trace"});
-  };
-  add("frac_peak", rate / timing.peak_bandwidth(), "",
-      "Bytes on the data bus by the time of the last data beat, as a part of the peak bandwidth.");
-  add("bandwidth", rate / 1e6, "MB/s", "Bytes on the data bus by the time of the last data beat.");
-  add("peak_bandwidth", timing.peak_bandwidth() / 1e6, "MB/s", "Of the data bus without a pause.");
-  add("rd_lat_avg", result.reads == 0 ? 0.0 : result.latency_sum / static_cast<double>(result.reads), "ns",
-      "Mean latency of a read of 64 bytes, to its last data beat: from its acceptance when all times in the "
-      "trace are 0, "
-      "else from its time.");
-  add("rd_lat_max", result.latency_largest, "ns", "The longest such latency.");
-  add("row_hit_burst",
-      1.0 - static_cast<double>(commands.activates) / static_cast<double>(commands.reads + commands.writes),
-      "", "1 less activates by bursts.");
-  add("reads", count(result.reads), "requests", "Of 64 bytes or the part of one.");
-  add("writes", count(result.writes), "requests", "Of 64 bytes or the part of one.");
-  add("bursts", count(commands.reads + commands.writes), "bursts", "Read and write commands.");
-  add("activates", count(commands.activates), "commands", "Rows opened.");
-  add("precharges", count(commands.precharges), "commands", "Of one bank or of all.");
-  add("refreshes", count(commands.refreshes), "commands", "Of all banks.");
-  add("turn_arounds", count(commands.turn_arounds), "",
-      "Changes between reading and writing on the data bus.");
-  add("time", seconds * 1e6, "us", "Until the last data beat is over.");
-  return group;
 }
 
 std::string text(const MetricGroup& group) {

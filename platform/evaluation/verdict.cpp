@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "platform/results/rate_metrics.hpp"
+
 namespace parallax {
 namespace {
 
@@ -38,16 +40,12 @@ std::string verdict(const nlohmann::ordered_json& base, const Part* part, const 
 }
 
 void add_verdict(MetricGroup& root, const std::string& sentence, const RelaxedLimits& limits) {
-  MetricGroup& group = root.group("limit");
-  const std::string window = "a run of the machine without that limit";
-  group.add({"verdict", sentence, "", "What limits, and what taking it away would gain.", window});
+  const MetricWriter out(root, rate_table());
   const RelaxedLimit* const found = limits.limit();
-  group.add({"relaxation", found == nullptr ? std::string("none") : found->relaxation.name(), "",
-             "The limit that gains most when it alone is taken away, of those that were tried.", window});
-  group.add({"relaxed_frame_rate", found == nullptr ? limits.frame_rate : found->frame_rate, "frames/s",
-             "Frame rate without it.", window});
-  group.add({"relaxed_part", found == nullptr ? std::string("none") : found->next_part, "",
-             "The part that limits then.", window});
+  out.add("limit/verdict", sentence);
+  out.add("limit/relaxation", found == nullptr ? std::string("none") : found->relaxation.name());
+  out.add("limit/relaxed_frame_rate", found == nullptr ? limits.frame_rate : found->frame_rate);
+  out.add("limit/relaxed_part", found == nullptr ? std::string("none") : found->next_part);
 }
 
 }  // namespace parallax

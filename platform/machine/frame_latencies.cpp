@@ -6,28 +6,28 @@ namespace parallax {
 const std::vector<FrameSpan>& frame_spans() {
   static const std::vector<FrameSpan> spans{
       {"first_pixel",
-       "From the frame in memory (as far as the core waits for it) to its first disparity out of the last "
-       "filter.",
+       "from the frame in memory (as far as the core waits for it) to its first disparity out of the last "
+       "filter",
        &FrameTimes::in_memory, &FrameTimes::first_disparity},
       {"last_pixel",
-       "From the frame in memory (as far as the core waits for it) to its last disparity out of the last "
-       "filter.",
+       "from the frame in memory (as far as the core waits for it) to its last disparity out of the last "
+       "filter",
        &FrameTimes::in_memory, &FrameTimes::last_disparity},
       {"first_byte_to_first_pixel",
-       "From the frame's first byte in memory to its first disparity out of the last filter.",
+       "from the frame's first byte in memory to its first disparity out of the last filter",
        &FrameTimes::first_byte, &FrameTimes::first_disparity},
       {"first_byte_to_last_pixel",
-       "From the frame's first byte in memory to its last disparity out of the last filter.",
+       "from the frame's first byte in memory to its last disparity out of the last filter",
        &FrameTimes::first_byte, &FrameTimes::last_disparity},
-      {"first_byte_to_host", "From the frame's first byte in memory to its last bit at the host.",
+      {"first_byte_to_host", "from the frame's first byte in memory to its last bit at the host",
        &FrameTimes::first_byte, &FrameTimes::at_host},
       {"exposure_to_first_pixel",
-       "From the end of exposure to the frame's first disparity out of the last filter.",
-       &FrameTimes::exposed, &FrameTimes::first_disparity},
+       "from the end of exposure to the frame's first disparity out of the last filter", &FrameTimes::exposed,
+       &FrameTimes::first_disparity},
       {"exposure_to_last_pixel",
-       "From the end of exposure to the frame's last disparity out of the last filter.", &FrameTimes::exposed,
+       "from the end of exposure to the frame's last disparity out of the last filter", &FrameTimes::exposed,
        &FrameTimes::last_disparity},
-      {"exposure_to_host", "From the end of exposure to the frame's last bit at the host.",
+      {"exposure_to_host", "from the end of exposure to the frame's last bit at the host",
        &FrameTimes::exposed, &FrameTimes::at_host}};
   return spans;
 }

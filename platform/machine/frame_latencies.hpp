@@ -13,7 +13,7 @@ namespace parallax {
 /// A way that every frame goes, from one of its dates to a later one.
 struct FrameSpan {
   const char* name;         ///< "first_pixel"
-  const char* description;  ///< one sentence
+  const char* description;  ///< "from the ... to its ..."
   sc_core::sc_time FrameTimes::*from;
   sc_core::sc_time FrameTimes::*to;
 

@@ -54,23 +54,35 @@ std::string message(const Deadlock& deadlock) {
          hint(deadlock.remedy);
 }
 
+const MetricTable& deadlock_table() {
+  constexpr const char* kWindow = "when it got stuck";
+  static const MetricTable table{
+      {"deadlock/remedy", "", "What would free the machine that got stuck.", kWindow},
+      {"deadlock/<wait>/waiter", "", "Who cannot go on; the waits form a circle.", kWindow},
+      {"deadlock/<wait>/stream", "", "The stream that the waiter waits on.", kWindow},
+      {"deadlock/<wait>/state", "", "Whether that stream is full or empty.", kWindow},
+      {"deadlock/<wait>/depth", "tokens", "Slots of that stream's FIFO.", kWindow},
+      {"deadlock/<wait>/waits_for", "", "Who would have to act: the waiter of the next wait.", kWindow},
+  };
+  return table;
+}
+
 void add_deadlock(MetricGroup& root, const Deadlock& deadlock) {
-  const std::string window = "when it got stuck";
-  MetricGroup& group = root.group("deadlock");
+  const MetricWriter out(root, deadlock_table());
   std::string remedy = deadlock.circle.empty() ? "no circle of streams holds it up, so no depth would free it"
                                                : hint(deadlock.remedy);
   remedy.erase(0, remedy.find_first_not_of(' '));
   if (!remedy.empty() && remedy.back() == '\n') remedy.pop_back();
-  group.add({"remedy", remedy, "", "What would free the machine.", window});
+  out.add("deadlock/remedy", remedy);
   const std::vector<Wait>& waits = deadlock.circle.empty() ? deadlock.waits : deadlock.circle;
   for (std::size_t i = 0; i < waits.size(); ++i) {
     const Wait& wait = waits[i];
-    MetricGroup& entry = group.group(fmt::format("wait_{}", i + 1));
-    entry.add({"waiter", wait.waiter, "", "Who cannot go on.", window});
-    entry.add({"stream", std::string(wait.stream->basename()), "", "The stream that it waits on.", window});
-    entry.add({"state", std::string(wait.on_full ? "full" : "empty"), "", "Of that stream.", window});
-    entry.add({"depth", std::int64_t{wait.stream->depth()}, "tokens", "Places of its FIFO.", window});
-    entry.add({"waits_for", wait.other, "", "Who would have to act: the waiter of the next entry.", window});
+    const MetricWriter entry = out.of(fmt::format("wait_{}", i + 1));
+    entry.add("deadlock/<wait>/waiter", wait.waiter);
+    entry.add("deadlock/<wait>/stream", std::string(wait.stream->basename()));
+    entry.add("deadlock/<wait>/state", std::string(wait.on_full ? "full" : "empty"));
+    entry.add("deadlock/<wait>/depth", std::int64_t{wait.stream->depth()});
+    entry.add("deadlock/<wait>/waits_for", wait.other);
   }
 }
 

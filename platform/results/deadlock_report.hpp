@@ -6,7 +6,7 @@
 
 #include "platform/machine/machine.hpp"
 #include "tlm/deadlock.hpp"
-#include "traces/metrics.hpp"
+#include "traces/metric_table.hpp"
 
 namespace parallax {
 
@@ -25,5 +25,6 @@ std::string message(const Deadlock& deadlock);
 
 /// The group "deadlock": the remedy, and each wait of the circle (or, where none is known, each wait).
 void add_deadlock(MetricGroup& root, const Deadlock& deadlock);
+const MetricTable& deadlock_table();
 
 }  // namespace parallax

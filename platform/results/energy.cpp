@@ -123,16 +123,29 @@ EnergyEstimate estimate_energy(const EnergyConfig& config, const EnergyActivity&
   return estimate;
 }
 
-void add_energy(MetricGroup& root, const EnergyEstimate& estimate, const std::string& window) {
-  MetricGroup& group = root.group("energy");
-  const auto add = [&](const std::string& name, const std::string& description, double joules) {
-    group.add({"power_" + name, estimate.watts(joules), "W", "Estimate of the power: " + description + ".",
-               window});
-    group.add({"frame_" + name, estimate.millijoules_per_frame(joules), "mJ",
-               "Estimate of a frame's energy: " + description + ".", window});
+const MetricTable& energy_table() {
+  static const MetricTable table{
+      {"energy/power_total", "W",
+       "Estimate of what the device draws at its supply, without the cameras: the sum of all parts.",
+       kSteadyState},
+      {"energy/frame_total", "mJ",
+       "Estimate of the energy of a frame, all parts; of a single frame, in the time until the host has it.",
+       kSteadyState},
+      {"energy/power_<part>", "W", "Estimate of the power of one part: <part>.", kSteadyState},
+      {"energy/frame_<part>", "mJ", "Estimate of a frame's energy in one part: <part>.", kSteadyState},
   };
-  add("total", "all parts, at the device's supply", estimate.joules());
-  for (const EnergyEstimate::Part& part : estimate.parts) add(part.name, part.description, part.joules);
+  return table;
+}
+
+void add_energy(MetricGroup& root, const EnergyEstimate& estimate, const std::string& window) {
+  const MetricWriter out = MetricWriter(root, energy_table()).over(window);
+  out.add("energy/power_total", estimate.watts(estimate.joules()));
+  out.add("energy/frame_total", estimate.millijoules_per_frame(estimate.joules()));
+  for (const EnergyEstimate::Part& part : estimate.parts) {
+    const MetricWriter of_part = out.of(part.name, part.description);
+    of_part.add("energy/power_<part>", estimate.watts(part.joules));
+    of_part.add("energy/frame_<part>", estimate.millijoules_per_frame(part.joules));
+  }
 }
 
 }  // namespace parallax

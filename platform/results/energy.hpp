@@ -7,7 +7,7 @@
 
 #include "platform/config/energy_config.hpp"
 #include "platform/results/limits.hpp"
-#include "traces/metrics.hpp"
+#include "traces/metric_table.hpp"
 
 namespace parallax {
 
@@ -54,7 +54,8 @@ struct EnergyEstimate {
 /// `activity.seconds` and `.frames` must be above 0.
 EnergyEstimate estimate_energy(const EnergyConfig& config, const EnergyActivity& activity);
 
-/// `power_<part>` in W and `frame_<part>` in mJ, for each part and for `total`.
+/// Power and energy of a frame, for each part and for all.
 void add_energy(MetricGroup& root, const EnergyEstimate& estimate, const std::string& window);
+const MetricTable& energy_table();
 
 }  // namespace parallax

@@ -122,20 +122,15 @@ GroundTruthScore& GroundTruthScore::operator+=(const GroundTruthScore& other) {
 
 std::vector<Quality> GroundTruthScore::qualities() const {
   std::vector<Quality> result = {
-      {"scored_pixels", "Pixels with a known true disparity that the mask selects.", "px",
-       static_cast<double>(scored)},
-      {"valid_pixels", "Scored pixels that have a disparity.", "px", static_cast<double>(valid)},
-      {"coverage", "Share of the scored pixels that have a disparity.", "%", 100 * coverage()},
-      {"mean_error", "Mean absolute error of the valid pixels.", "px", mean_error()},
+      {"scored_pixels", static_cast<double>(scored)},
+      {"valid_pixels", static_cast<double>(valid)},
+      {"coverage", 100 * coverage()},
+      {"mean_error", mean_error()},
   };
   for (int limit = 1; limit <= kLimits; ++limit) {
     const std::string n = std::to_string(limit);
-    result.push_back({"bad_" + n, "Share of the valid pixels that are off by more than " + n + " px.", "%",
-                      100 * bad_share(limit)});
-    result.push_back(
-        {"bad_" + n + "_all",
-         "Share of the scored pixels that are off by more than " + n + " px or have no disparity.", "%",
-         100 * bad_share_all(limit)});
+    result.push_back({"bad_" + n, 100 * bad_share(limit)});
+    result.push_back({"bad_" + n + "_all", 100 * bad_share_all(limit)});
   }
   return result;
 }

@@ -32,11 +32,9 @@ struct GroundTruth {
 /// than the image, or if there is no pixel to score.
 GroundTruth read_ground_truth(const std::string& path, const std::string& mask_path, int width, int height);
 
-/// One number of a result with what a reader needs to understand it.
+/// A number of the score, by its name in timing.json ("quality/bad_1").
 struct Quality {
   std::string name;
-  std::string description;
-  std::string unit;
   double value = 0;
 };
 

@@ -9,65 +9,93 @@ namespace parallax {
 namespace {
 
 // Cycles in which a port of the core held up the stage at its other end.
-void add_stalls(MetricGroup& memory, const Machine& machine, const SteadyWindow& window) {
+void add_stalls(const MetricWriter& out, const Machine& machine, const SteadyWindow& window) {
   const double frames = static_cast<double>(std::max<std::size_t>(1, window.frames()));
   for (const MemoryPort* port : machine.ports()) {
     if (!port->stage) continue;
-    memory.group(port->name)
-        .add({"stalls", static_cast<double>(stage_time(*port->stage, window).memory.count()) / frames,
-              "cycles", "Core cycles a frame in which this port held back the stage next to it.",
-              window.text});
+    out.of(port->name)
+        .add("memory/<port>/stalls",
+             static_cast<double>(stage_time(*port->stage, window).memory.count()) / frames);
   }
 }
 
-void add_port(MetricGroup& group, const BusMaster& port, const SteadyWindow& window, double bytes_per_frame,
+void add_port(const MetricWriter& out, const BusMaster& port, double bytes_per_frame,
               double bytes_per_second) {
-  const std::string all = "the whole run";
-  group.add({"bytes_per_frame", bytes_per_frame, "B", "Bytes through the port, a frame.", window.text});
-  group.add({"bandwidth", bytes_per_second / 1e6, "MB/s", "Bytes through the port by time.", window.text});
+  out.add("memory/<port>/bytes_per_frame", bytes_per_frame);
+  out.add("memory/<port>/bandwidth", bytes_per_second / 1e6);
   const LatencyHistogram& latencies = port.latencies();
-  const auto latency = [&](const char* name, const sc_core::sc_time& time, const char* description) {
-    group.add({name, time.to_seconds() * 1e9, "ns", description, all});
+  const MetricWriter all = out.over(kWholeRun);
+  const auto latency = [&](const char* path, const sc_core::sc_time& time) {
+    all.add(path, time.to_seconds() * 1e9);
   };
-  latency("latency_mean", latencies.mean(), "From request to answer of a burst.");
-  latency("latency_p50", latencies.percentile(0.5), "Half of the bursts are answered in this time (+1.6 %).");
-  latency("latency_p95", latencies.percentile(0.95),
-          "95 % of the bursts are answered in this time (+1.6 %).");
-  latency("latency_p99", latencies.percentile(0.99),
-          "99 % of the bursts are answered in this time (+1.6 %).");
-  latency("latency_largest", latencies.largest(), "From request to answer of a burst.");
+  latency("memory/<port>/latency_mean", latencies.mean());
+  latency("memory/<port>/latency_p50", latencies.percentile(0.5));
+  latency("memory/<port>/latency_p95", latencies.percentile(0.95));
+  latency("memory/<port>/latency_p99", latencies.percentile(0.99));
+  latency("memory/<port>/latency_largest", latencies.largest());
 }
 
-void add_dram(MetricGroup& memory, const DramStatistics& first, const DramStatistics& last,
+void add_dram(const MetricWriter& out, const DramStatistics& first, const DramStatistics& last,
               const SteadyWindow& window) {
-  const auto per_frame = [&](const char* name, std::uint64_t from, std::uint64_t to, const char* unit,
-                             const char* description) {
-    memory.add(
-        {name,
-         static_cast<double>(to - from) / static_cast<double>(std::max<std::size_t>(1, window.frames())),
-         unit, description, window.text});
+  const auto frames = static_cast<double>(std::max<std::size_t>(1, window.frames()));
+  const auto per_frame = [&](const char* path, std::uint64_t from, std::uint64_t to) {
+    out.add(path, static_cast<double>(to - from) / frames);
   };
   const auto bursts = static_cast<double>(last.reads + last.writes - first.reads - first.writes);
-  memory.add(
-      {"row_hits",
-       // A refresh may close a row before its burst has come: there may be more rows opened than bursts.
-       bursts == 0
-           ? 0
-           : 100.0 * std::max(0.0, 1.0 - static_cast<double>(last.activates - first.activates) / bursts),
-       "%", "DRAM bursts that opened no row.", window.text});
-  per_frame("bursts", first.reads + first.writes, last.reads + last.writes, "bursts",
-            "DRAM bursts, a frame.");
-  per_frame("activates", first.activates, last.activates, "rows", "DRAM rows opened, a frame.");
-  per_frame("refreshes", first.refreshes, last.refreshes, "refreshes",
-            "DRAM refreshes of all banks, a frame.");
-  per_frame("turn_arounds", first.turn_arounds, last.turn_arounds, "turns",
-            "Changes of the DRAM's data bus between reading and writing, a frame.");
+  out.add("memory/row_hits",
+          // A refresh may close a row before its burst has come: there may be more rows opened than bursts.
+          bursts == 0
+              ? 0
+              : 100.0 * std::max(0.0, 1.0 - static_cast<double>(last.activates - first.activates) / bursts));
+  per_frame("memory/bursts", first.reads + first.writes, last.reads + last.writes);
+  per_frame("memory/activates", first.activates, last.activates);
+  per_frame("memory/refreshes", first.refreshes, last.refreshes);
+  per_frame("memory/turn_arounds", first.turn_arounds, last.turn_arounds);
 }
 
 }  // namespace
 
+const MetricTable& memory_table() {
+  static const MetricTable table{
+      {"memory/bandwidth", "MB/s", "Bytes that all ports move, a second (1 MB is 10^6 B).", kSteadyState},
+      {"memory/usable_bandwidth", "MB/s",
+       "Peak bandwidth of the devices (or memory.bytes_per_cycle times clocks.memory_hz) times "
+       "memory.efficiency.",
+       ""},
+      {"memory/share", "%", "Share of the time in which the memory's bus was taken.", kSteadyState},
+      {"memory/at_work", "%",
+       "Share of the time in which the memory had something to do: its bus taken, or, in a DRAM, rows "
+       "opened, the "
+       "bus turned around, or a refresh waited for.",
+       kSteadyState},
+      {"memory/row_hits", "%", "DRAM bursts (32 B on a 32-bit bus) that opened no row.", kSteadyState},
+      {"memory/bursts", "bursts", "DRAM bursts, a frame.", kSteadyState},
+      {"memory/activates", "rows", "DRAM rows opened, a frame.", kSteadyState},
+      {"memory/refreshes", "refreshes", "DRAM refreshes of all banks, a frame.", kSteadyState},
+      {"memory/turn_arounds", "turns", "Changes of the DRAM's data bus between reading and writing, a frame.",
+       kSteadyState},
+      {"memory/<port>/bytes_per_frame", "B", "Bytes through this port, a frame.", kSteadyState},
+      {"memory/<port>/bandwidth", "MB/s", "Bytes through this port, a second.", kSteadyState},
+      {"memory/<port>/share", "%", "Share of the time in which the memory's bus was taken for this port.",
+       kSteadyState},
+      {"memory/<port>/latency_mean", "ns", "Mean time from a burst's request to its answer.", kWholeRun},
+      {"memory/<port>/latency_p50", "ns",
+       "Half of the bursts were answered in this time (up to 1.6 % too large).", kWholeRun},
+      {"memory/<port>/latency_p95", "ns",
+       "95 % of the bursts were answered in this time (up to 1.6 % too large).", kWholeRun},
+      {"memory/<port>/latency_p99", "ns",
+       "99 % of the bursts were answered in this time (up to 1.6 % too large).", kWholeRun},
+      {"memory/<port>/latency_largest", "ns", "Time from request to answer of the slowest burst.", kWholeRun},
+      {"memory/<port>/stalls", "cycles",
+       "Core cycles a frame in which this port held back the stage next to it.", kSteadyState},
+      {"memory/map/bytes_per_pixel_and_image", "B",
+       "Size of the compressed rectification map by the pixels of both images.", ""},
+  };
+  return table;
+}
+
 void add_memory(MetricGroup& root, const Machine& machine, const SteadyWindow& window) {
-  MetricGroup& memory = root.group("memory");
+  const MetricWriter out = MetricWriter(root, memory_table()).over(window.text);
   const Memory* model = machine.memory();
   MachineSnapshot first;  // the beginning of the run
   first.ports.resize(machine.ports().size());
@@ -82,7 +110,7 @@ void add_memory(MetricGroup& root, const Machine& machine, const SteadyWindow& w
   std::uint64_t total = 0;
   Cycles total_bus;  // whole cycles, so that a bus that is always taken is so for 100 %
   for (const MemoryPort* port : machine.ports()) {
-    MetricGroup& group = memory.group(port->name);
+    const MetricWriter of_port = out.of(port->name);
     const PortSnapshot& begin = first.ports[port->number];
     const PortSnapshot& end = last.ports[port->number];
     const std::uint64_t bytes = end.bytes - begin.bytes;
@@ -93,29 +121,17 @@ void add_memory(MetricGroup& root, const Machine& machine, const SteadyWindow& w
     const double per_frame = window.frames() == 0
                                  ? static_cast<double>(port->rows->frame())
                                  : static_cast<double>(bytes) / static_cast<double>(window.frames());
-    add_port(group, *port->master, window, per_frame,
-             elapsed == 0 ? 0 : static_cast<double>(bytes) / elapsed);
-    if (model != nullptr) {
-      group.add(
-          {"share", share(bus), "%", "Time in which the memory's bus was taken for the port.", window.text});
-    }
+    add_port(of_port, *port->master, per_frame, elapsed == 0 ? 0 : static_cast<double>(bytes) / elapsed);
+    if (model != nullptr) of_port.add("memory/<port>/share", share(bus));
   }
-  add_stalls(memory, machine, window);
-  const EncodedMap& map = machine.map();
-  memory.group(machine.map_port().name)
-      .add({"bytes_per_pixel_and_image", map.bytes_per_pixel(), "B",
-            "Compressed size of the rectification map by pixels of both images.", ""});
-  memory.add({"bandwidth", elapsed == 0 ? 0 : static_cast<double>(total) / elapsed / 1e6, "MB/s",
-              "Of all ports together.", window.text});
+  add_stalls(out, machine, window);
+  out.add("memory/map/bytes_per_pixel_and_image", machine.map().bytes_per_pixel());
+  out.add("memory/bandwidth", elapsed == 0 ? 0 : static_cast<double>(total) / elapsed / 1e6);
   if (model == nullptr) return;
-  memory.add({"usable_bandwidth", model->usable_bandwidth() / 1e6, "MB/s", "Peak times efficiency.", ""});
-  memory.add({"share", share(total_bus), "%", "Time in which the memory's bus was taken.", window.text});
-  memory.add({"at_work", share(last.memory - first.memory), "%",
-              "Time in which the memory was at work: its bus taken, or, in a DRAM, rows opened, the bus "
-              "turned around "
-              "or refreshes waited for.",
-              window.text});
-  if (machine.config().memory.model == MemoryModel::kDram) add_dram(memory, first.dram, last.dram, window);
+  out.add("memory/usable_bandwidth", model->usable_bandwidth() / 1e6);
+  out.add("memory/share", share(total_bus));
+  out.add("memory/at_work", share(last.memory - first.memory));
+  if (machine.config().memory.model == MemoryModel::kDram) add_dram(out, first.dram, last.dram, window);
 }
 
 }  // namespace parallax

@@ -20,82 +20,49 @@ double share_of(const std::vector<PartLoad>& loads, const Stage* stage) {
   return found == loads.end() ? 0 : found->share;
 }
 
-const char* description_of(StageActivity activity) {
-  switch (activity) {
-    case StageActivity::kBusy:
-      return "At work with a token on some port.";
-    case StageActivity::kStarved:
-      return "Held back by an empty input from another stage.";
-    case StageActivity::kBlocked:
-      return "Held back by a full output to another stage (back-pressure).";
-    case StageActivity::kMemory:
-      return "Held back by a stream from or to a memory port, within a frame.";
-    case StageActivity::kSynchroniser:
-      return "Held back by a token or a place that is there, but still in an asynchronous FIFO's "
-             "synchroniser.";
-    case StageActivity::kBlanking:
-      return "Declared row and frame overhead, and waiting for a frame to begin.";
-  }
-  return "";
-}
-
 // Whole cycles, and shares of one decimal that sum to 100.
-void add_stage_time(MetricGroup& group, const StageStatistics& time, const std::string& window) {
-  group.add(
-      {"window", time.total().count(), "cycles",
-       "From the stage's first firing for the window's first frame to that for its last: the sum of the six "
-       "below.",
-       window});
+void add_stage_time(const MetricWriter& out, const StageStatistics& time) {
+  out.add("stages/<stage>/window", time.total().count());
   std::vector<std::int64_t> cycles;
   for (const StageActivity activity : kAllStageActivities) {
     cycles.push_back(time.of(activity).count());
-    group.add({name_of(activity), cycles.back(), "cycles", description_of(activity), window});
+    out.add(fmt::format("stages/<stage>/{}", name_of(activity)), cycles.back());
   }
   const std::vector<std::int64_t> tenths = shares_in_tenths(cycles);
   for (std::size_t i = 0; i < tenths.size(); ++i) {
-    group.add({fmt::format("{}_share", name_of(kAllStageActivities[i])),
-               static_cast<double>(tenths[i]) / 10.0, "%",
-               "The same as a share of the window; the six are rounded so that they sum to 100.0.", window});
+    out.add(fmt::format("stages/<stage>/{}_share", name_of(kAllStageActivities[i])),
+            static_cast<double>(tenths[i]) / 10.0);
   }
 }
 
-void add_stream(MetricGroup& group, const StreamBase& stream) {
-  const std::string all = "the whole run";
+void add_stream(const MetricWriter& out, const StreamBase& stream) {
   const StreamStatistics& s = stream.statistics();
   const Occupancy& held = stream.occupancy();
   const auto cycles = static_cast<double>(std::max<std::uint64_t>(1, held.total()));
   const auto percent = [cycles](std::uint64_t part) { return 100.0 * static_cast<double>(part) / cycles; };
-  group.add({"depth", std::int64_t{stream.depth()}, "tokens", "Places of the FIFO.", ""});
-  group.add({"width", stream.width().count(), "bit", "Of a token.", ""});
-  group.add({"writer", stream.writer_name(), "", "The module that writes it.", ""});
-  group.add({"reader", stream.reader_name(), "", "The module that reads it.", ""});
-  group.add({"kind", std::string(name_of(stream.config().kind)), "",
-             "Which circuit the FIFO is: it fixes by how many cycles tokens and places are delayed.", ""});
-  group.add({"tokens", static_cast<std::int64_t>(s.written), "tokens", "Written.", all});
-  group.add({"high_water", static_cast<std::int64_t>(s.high_water), "tokens", "Largest number held.", all});
-  group.add({"mean_occupancy", held.mean(), "tokens", "Held on average over the time.", all});
-  group.add({"full", percent(held.full()), "%", "Share of the time without a free place.", all});
+  out.add("streams/<stream>/depth", std::int64_t{stream.depth()});
+  out.add("streams/<stream>/width", stream.width().count());
+  out.add("streams/<stream>/writer", stream.writer_name());
+  out.add("streams/<stream>/reader", stream.reader_name());
+  out.add("streams/<stream>/kind", std::string(name_of(stream.config().kind)));
+  out.add("streams/<stream>/tokens", static_cast<std::int64_t>(s.written));
+  out.add("streams/<stream>/high_water", static_cast<std::int64_t>(s.high_water));
+  out.add("streams/<stream>/mean_occupancy", held.mean());
+  out.add("streams/<stream>/full", percent(held.full()));
   const double never = held.total() == 0 ? 100 : 0;  // a stream without a token
-  group.add({"empty", percent(held.empty()) + never, "%", "Share of the time without a token.", all});
-  group.add({"blocked_on_full", s.blocked_on_full.count(), "cycles",
-             "Writer's cycles in which this FIFO alone held it back, being full.", all});
-  group.add({"starved_on_empty", s.starved_on_empty.count(), "cycles",
-             "Reader's cycles in which this FIFO alone held it back, being empty.", all});
+  out.add("streams/<stream>/empty", percent(held.empty()) + never);
+  out.add("streams/<stream>/blocked_on_full", s.blocked_on_full.count());
+  out.add("streams/<stream>/starved_on_empty", s.starved_on_empty.count());
   std::vector<std::int64_t> bins;
   for (std::size_t bin = 0; bin < held.bins(); ++bin)
     bins.push_back(static_cast<std::int64_t>(held.cycles(bin)));
   while (!bins.empty() && bins.back() == 0) bins.pop_back();
-  group.add({"occupancy_bin", static_cast<std::int64_t>(held.bin_width()), "tokens",
-             "Levels in a bin of the histogram.", ""});
-  group.add(
-      {"occupancy", std::move(bins), "cycles",
-       "Writer's cycles at each level, from 0 tokens up, occupancy_bin levels together; bins above the last "
-       "that occurred are left out.",
-       all});
+  out.add("streams/<stream>/occupancy_bin", static_cast<std::int64_t>(held.bin_width()));
+  out.add("streams/<stream>/occupancy", std::move(bins));
 }
 
 // Where data lies in memory between two engines: the machine's way past its streams.
-void add_buffers(MetricGroup& root, const Machine& machine) {
+void add_buffers(const MetricWriter& out, const Machine& machine) {
   for (const BufferKind kind : {BufferKind::kLeft, BufferKind::kRight, BufferKind::kOutput}) {
     const auto engine = [&](MemoryPort::Direction direction) -> const MemoryPort* {
       const auto found = std::find_if(
@@ -109,35 +76,110 @@ void add_buffers(MetricGroup& root, const Machine& machine) {
     const auto name = [](const MemoryPort* port) {
       return std::string(port->master->get_parent_object()->name());
     };
-    MetricGroup& group = root.group("buffers").group(name_of(kind));
-    group.add({"writer", name(writer), "", "The module that fills them.", ""});
-    group.add({"reader", name(reader), "", "The module that empties them.", ""});
-    group.add({"number", static_cast<std::int64_t>(machine.memory_map().number_of(kind)), "buffers",
-               "In memory, each of one image.", ""});
+    const MetricWriter buffers = out.of(name_of(kind));
+    buffers.add("buffers/<buffers>/writer", name(writer));
+    buffers.add("buffers/<buffers>/reader", name(reader));
+    buffers.add("buffers/<buffers>/number", static_cast<std::int64_t>(machine.memory_map().number_of(kind)));
   }
 }
 
 }  // namespace
 
+const MetricTable& pipeline_table() {
+  static const MetricTable table{
+      {"stages/<stage>/cycles_per_frame", "cycles",
+       "Cycles of a frame without any wait, by the stage's declared intervals.", ""},
+      {"stages/<stage>/utilisation", "%",
+       "Cycles of a frame without any wait as a share of the frame period.", kSteadyState},
+      {"stages/<stage>/window", "cycles",
+       "Core cycles from the stage's first firing for one frame to that for a later one, over the frames of "
+       "the steady state; "
+       "for a single frame, the whole run. The six kinds of cycles (busy, starved, blocked, memory, "
+       "synchroniser, blanking) "
+       "sum to it exactly.",
+       kSteadyState},
+      {"stages/<stage>/busy", "cycles", "Cycles at work with a token on some port.", kSteadyState},
+      {"stages/<stage>/starved", "cycles", "Cycles held back by an empty input from another stage.",
+       kSteadyState},
+      {"stages/<stage>/blocked", "cycles",
+       "Cycles held back by a full output to another stage: back-pressure.", kSteadyState},
+      {"stages/<stage>/memory", "cycles",
+       "Cycles held back by a stream from or to a memory port, within a frame.", kSteadyState},
+      {"stages/<stage>/synchroniser", "cycles",
+       "Cycles held back by a token or a slot that is there, but still in the synchroniser of an "
+       "asynchronous FIFO.",
+       kSteadyState},
+      {"stages/<stage>/blanking", "cycles",
+       "Cycles of declared row and frame overhead, and of waiting for a frame to begin.", kSteadyState},
+      {"stages/<stage>/busy_share", "%",
+       "Busy cycles as a share of the window; the six shares are rounded to one decimal so that they sum to "
+       "100.0, those with "
+       "the largest remainders upward.",
+       kSteadyState},
+      {"stages/<stage>/starved_share", "%", "Starved cycles as a share of the window, rounded likewise.",
+       kSteadyState},
+      {"stages/<stage>/blocked_share", "%", "Blocked cycles as a share of the window, rounded likewise.",
+       kSteadyState},
+      {"stages/<stage>/memory_share", "%",
+       "Cycles of waiting for the memory as a share of the window, rounded likewise.", kSteadyState},
+      {"stages/<stage>/synchroniser_share", "%",
+       "Synchroniser cycles as a share of the window, rounded likewise.", kSteadyState},
+      {"stages/<stage>/blanking_share", "%", "Blanking cycles as a share of the window, rounded likewise.",
+       kSteadyState},
+      {"stages/<stage>/storage", "bit",
+       "Line buffers, windows and registers that the stage declares, without FIFOs.", ""},
+      {"streams/<stream>/depth", "tokens", "Slots of the FIFO.", ""},
+      {"streams/<stream>/width", "bit", "Bits of a token.", ""},
+      {"streams/<stream>/writer", "", "The module that writes the stream, as its path in the model.", ""},
+      {"streams/<stream>/reader", "", "The module that reads the stream, as its path in the model.", ""},
+      {"streams/<stream>/kind", "",
+       "Which circuit the FIFO is: it fixes how many cycles later a token can be read, and a freed slot "
+       "written.",
+       ""},
+      {"streams/<stream>/tokens", "tokens", "Tokens written.", kWholeRun},
+      {"streams/<stream>/high_water", "tokens", "Most tokens held at the end of a cycle.", kWholeRun},
+      {"streams/<stream>/mean_occupancy", "tokens",
+       "Tokens held on average over the time; a token counts from its writing until its slot can be written "
+       "again.",
+       kWholeRun},
+      {"streams/<stream>/full", "%", "Share of the time without a free slot.", kWholeRun},
+      {"streams/<stream>/empty", "%", "Share of the time without a token.", kWholeRun},
+      {"streams/<stream>/blocked_on_full", "cycles",
+       "Writer's cycles in which this FIFO alone held it back, being full.", kWholeRun},
+      {"streams/<stream>/starved_on_empty", "cycles",
+       "Reader's cycles in which this FIFO alone held it back, being empty.", kWholeRun},
+      {"streams/<stream>/occupancy_bin", "tokens",
+       "Fill levels that one bin of the histogram holds together: 1 up to a depth of 64.", ""},
+      {"streams/<stream>/occupancy", "cycles",
+       "Histogram: writer's cycles at each fill level, from 0 tokens up; bins above the last level that "
+       "occurred are left out.",
+       kWholeRun},
+      {"buffers/<buffers>/writer", "",
+       "The engine that fills these buffers in memory: the way of the data past the streams.", ""},
+      {"buffers/<buffers>/reader", "", "The engine that empties these buffers.", ""},
+      {"buffers/<buffers>/number", "buffers",
+       "How many buffers there are, each of one image: camera.frame_buffers, link.output_buffers.", ""},
+  };
+  return table;
+}
+
 void add_pipeline(MetricGroup& root, const Machine& machine, const SteadyWindow& window) {
-  const std::string all = "the whole run";
+  const MetricWriter out(root, pipeline_table());
   const std::vector<PartLoad> loads =
       window.frames() == 0 ? std::vector<PartLoad>{} : part_loads(machine, window);
-  MetricGroup& stages = root.group("stages");
+  root.group("stages");  // there even where no stage is
   for (const StageInfo& info : machine.pipeline().stages()) {
-    MetricGroup& group = stages.group(info.stage->basename());
-    const double cycles = static_cast<double>(info.cycles_per_frame());
-    group.add({"cycles_per_frame", cycles, "cycles",
-               "Cycles of a frame without any wait, by the declared intervals.", ""});
-    group.add({"utilisation", 100.0 * share_of(loads, info.stage), "%", "Of the time.", window.text});
-    add_stage_time(group, stage_time(info, window), window.frames() == 0 ? all : window.text);
-    group.add({"storage", info.storage.count(), "bit", "Line buffers and the like, without FIFOs.", ""});
+    const MetricWriter stage = out.of(info.stage->basename());
+    stage.add("stages/<stage>/cycles_per_frame", static_cast<double>(info.cycles_per_frame()));
+    stage.over(window.text).add("stages/<stage>/utilisation", 100.0 * share_of(loads, info.stage));
+    add_stage_time(stage.over(window.frames() == 0 ? kWholeRun : window.text), stage_time(info, window));
+    stage.add("stages/<stage>/storage", info.storage.count());
   }
-  MetricGroup& streams = root.group("streams");
+  root.group("streams");
   for (const StreamBase* stream : machine.dataflow().streams()) {
-    add_stream(streams.group(stream->basename()), *stream);
+    add_stream(out.of(stream->basename()), *stream);
   }
-  add_buffers(root, machine);
+  add_buffers(out, machine);
 }
 
 }  // namespace parallax

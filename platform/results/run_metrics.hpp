@@ -8,7 +8,7 @@
 #include "platform/machine/machine.hpp"
 #include "platform/results/deadlock_report.hpp"
 #include "platform/results/ground_truth.hpp"
-#include "traces/metrics.hpp"
+#include "traces/metric_table.hpp"
 
 namespace parallax {
 
@@ -33,6 +33,9 @@ MetricGroup measure(const Machine& machine, const RunTotals& totals, int image_w
 /// streams until then.
 MetricGroup measure_stuck(const Machine& machine, const Deadlock& deadlock, const RunTotals& totals,
                           int image_width, int image_height);
+
+/// "run", "input", "camera", "software" and "quality".
+const MetricTable& run_table();
 
 /// The summary that a person reads, from that tree.
 std::string summary(const MetricGroup& metrics);

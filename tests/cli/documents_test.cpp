@@ -10,8 +10,6 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
-#include <map>
-#include <nlohmann/json.hpp>
 
 #include "tests/paths.hpp"
 #include "tests/platform/temporary_folder.hpp"
@@ -120,47 +118,6 @@ TEST(Documents, TheirCodeIsWhatTheTestsCompile) {
     }
   }
   EXPECT_GE(count, 5u);
-}
-
-void collect(const nlohmann::json& tree, const std::string& path, std::map<std::string, std::string>& units) {
-  for (const auto& [key, value] : tree.items()) {
-    if (path.empty() && key == "configuration") continue;
-    if (value.is_object() && value.contains("value") && value.contains("description")) {
-      units[path + key] = value.value("unit", "");
-    } else if (value.is_object()) {
-      collect(value, path + key + "/", units);
-    }
-  }
-}
-
-bool matches(const std::string& pattern, const std::string& name) {
-  static const std::regex placeholder("<[a-z_]+>");
-  return std::regex_match(name, std::regex(std::regex_replace(pattern, placeholder, "[a-z0-9_]+")));
-}
-
-TEST(Documents, TheGlossaryNamesEveryMetricAndNoOther) {
-  const TemporaryFolder folder;
-  std::string output;
-  ASSERT_EQ(run_in(folder, "parallax run --size 320x240 -d 64 --json", output), 0) << output;
-  std::map<std::string, std::string> units;
-  collect(nlohmann::json::parse(output), "", units);
-  ASSERT_EQ(
-      run_in(folder, "parallax run --size 96x64 --set streams.left_output.depth=4 --json 2>stuck", output),
-      1);
-  collect(nlohmann::json::parse(output), "", units);
-  const std::vector<GlossaryEntry> glossary = glossary_of(read_text(source_path("platform/doc/glossary.md")));
-  for (const auto& [name, unit] : units) {
-    const auto entry = std::find_if(glossary.begin(), glossary.end(),
-                                    [&, metric = name](const auto& e) { return matches(e.name, metric); });
-    ASSERT_NE(entry, glossary.end()) << "the glossary lacks " << name;
-    EXPECT_EQ(entry->unit, unit.empty() ? "-" : unit) << name;
-  }
-  for (const GlossaryEntry& entry : glossary) {
-    EXPECT_TRUE(std::any_of(units.begin(), units.end(),
-                            [&](const auto& metric) { return matches(entry.name, metric.first); }))
-        << "timing.json has no " << entry.name;
-    EXPECT_GT(entry.meaning.size(), 10u) << entry.name;
-  }
 }
 
 TEST(Documents, LinksLeadSomewhere) {

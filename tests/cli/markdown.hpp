@@ -165,21 +165,4 @@ inline std::vector<std::string> links_of(const std::string& markdown) {
   return links;
 }
 
-/// The rows of the glossary: "| `name` | unit | meaning |".
-struct GlossaryEntry {
-  std::string name;
-  std::string unit;
-  std::string meaning;
-};
-
-inline std::vector<GlossaryEntry> glossary_of(const std::string& markdown) {
-  static const std::regex row("\\| `([a-z0-9_/<>]+)` \\| ([^|]*) \\| (.*) \\|");
-  std::vector<GlossaryEntry> entries;
-  for (const std::string& line : lines_of(markdown)) {
-    std::smatch found;
-    if (std::regex_match(line, found, row)) entries.push_back({found[1], found[2], found[3]});
-  }
-  return entries;
-}
-
 }  // namespace parallax::test

@@ -7,7 +7,10 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <stdexcept>
 #include <string>
+
+#include "traces/metric_table.hpp"
 
 namespace parallax::test {
 namespace {
@@ -16,12 +19,13 @@ using Json = nlohmann::ordered_json;
 
 MetricGroup example() {
   MetricGroup root;
-  root.group("input").add({"width", std::int64_t{640}, "px", "Of the images.", ""});
+  root.group("input").metrics.push_back({"width", std::int64_t{640}, "px", "Of the images.", ""});
   MetricGroup& memory = root.group("memory");
-  memory.add({"share", 7.5, "%", "Of the time.", "frames 8 to 9"});
-  memory.group("map").add({"depths", std::vector<std::int64_t>{1, 2}, "tokens", "A row of numbers.", ""});
-  memory.group("map").add({"kind", std::string("registered"), "", "A word.", ""});
-  memory.group("map").add({"window", true, "", "Named like a part of a metric.", ""});
+  memory.metrics.push_back({"share", 7.5, "%", "Of the time.", "frames 8 to 9"});
+  memory.group("map").metrics.push_back(
+      {"depths", std::vector<std::int64_t>{1, 2}, "tokens", "A row of numbers.", ""});
+  memory.group("map").metrics.push_back({"kind", std::string("registered"), "", "A word.", ""});
+  memory.group("map").metrics.push_back({"window", true, "", "Named like a part of a metric.", ""});
   return root;
 }
 
@@ -69,7 +73,7 @@ TEST(Metrics, JsonIsReadBackAsItWasWritten) {
 
 TEST(Metrics, WhatJsonCannotHoldIsNoNumber) {
   MetricGroup root;
-  root.add({"rate", std::numeric_limits<double>::infinity(), "1/s", "Of nothing.", ""});
+  root.metrics.push_back({"rate", std::numeric_limits<double>::infinity(), "1/s", "Of nothing.", ""});
   EXPECT_TRUE(std::isnan(metrics_of(Json::parse(to_json(root).dump())).number("rate")));
 }
 
@@ -96,6 +100,33 @@ TEST(Metrics, DamageIsNamed) {
   tree = to_json(example());
   tree["memory"]["share"].erase("unit");
   EXPECT_EQ(error_of([&] { metrics_of(tree); }), "memory/share is no metric: it has no unit");
+}
+
+const MetricTable& table() {
+  static const MetricTable rows{{"rate", "1/s", "A rate.", kSteadyState},
+                                {"memory/<port>/kind", "", "A word.", ""},
+                                {"latency/<span>_mean", "ms", "What frames took <span>.", kWholeRun}};
+  return rows;
+}
+
+TEST(MetricWriter, WritesWhatTheRowSays) {
+  MetricGroup root;
+  const MetricWriter out = MetricWriter(root, table()).over("frames 2 to 4");
+  out.add("rate", 7.0);
+  out.of("left").add("memory/<port>/kind", std::string("narrow"));
+  MetricWriter(root, table()).of("first", "to the first pixel").add("latency/<span>_mean", 2.5);
+  EXPECT_EQ(root.number("rate"), 7);
+  EXPECT_EQ(root.at("rate").window, "frames 2 to 4");
+  EXPECT_EQ(root.word("memory/left/kind"), "narrow");
+  EXPECT_EQ(root.at("memory/left/kind").window, "");  // no measurement
+  EXPECT_EQ(root.at("latency/first_mean").unit, "ms");
+  EXPECT_EQ(root.at("latency/first_mean").window, "the whole run");
+  EXPECT_EQ(root.at("latency/first_mean").description, "What frames took to the first pixel.");
+}
+
+TEST(MetricWriter, WritesNothingThatIsNotInTheTable) {
+  MetricGroup root;
+  EXPECT_THROW(MetricWriter(root, table()).add("memory/left/kind", std::string("narrow")), std::logic_error);
 }
 
 }  // namespace

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "platform/results/rate_metrics.hpp"
+
+#include <fmt/format.h>
+
+#include <string>
+#include <vector>
+
+namespace parallax {
+namespace {
+
+void add_performance(const MetricWriter& out, const Machine& machine, const SteadyWindow& window) {
+  const double pixels = static_cast<double>(machine.input().width) * machine.input().height;
+  const double fps = window.period > 0 ? 1.0 / window.period : 0;
+  out.add("performance/frame_rate", fps);
+  out.add("performance/disparities_per_second", fps * pixels);
+  out.add("performance/evaluations_per_second", fps * pixels * machine.config().matching.range().count);
+}
+
+void add_latency(const MetricWriter& out, const Machine& machine, const SteadyWindow& window) {
+  const FrameLatencies& latencies = machine.latencies();
+  // Of the frame whose arrival begins the window, too.
+  const std::string frames =
+      window.frames() == 0 ? window.text : fmt::format("frames {} to {}", window.first + 1, window.last + 1);
+  for (std::size_t i = 0; i < frame_spans().size(); ++i) {
+    const FrameSpan& span = frame_spans()[i];
+    const LatencyHistogram& steady = latencies.steady(i);
+    const MetricWriter of_span = out.of(span.name, span.description).over(frames);
+    const auto add = [&](const char* path, const sc_core::sc_time& time) {
+      of_span.add(path, time.to_seconds() * 1e3);
+    };
+    of_span.over("frame 1").add("latency/<span>_first_frame",
+                                span.of(latencies.first_frame()).to_seconds() * 1e3);
+    add("latency/<span>_mean", steady.mean());
+    add("latency/<span>_p50", steady.percentile(0.5));
+    add("latency/<span>_p95", steady.percentile(0.95));
+    add("latency/<span>_p99", steady.percentile(0.99));
+    add("latency/<span>_largest", steady.largest());
+  }
+}
+
+void add_limit(const MetricWriter& out, const Machine& machine, const SteadyWindow& window) {
+  if (window.frames() == 0) return;
+  const std::vector<PartLoad> all = part_loads(machine, window);
+  const LimitVerdict verdict = find_limit(all);
+  out.add("limit/part", verdict.limited ? verdict.busiest.part->name : std::string("none"));
+  out.add("limit/key", verdict.limited ? verdict.busiest.part->key : verdict.otherwise);
+  out.add("limit/utilisation", 100.0 * verdict.busiest.share);
+  const PartLoad& next = verdict.limited ? verdict.next : verdict.busiest;
+  out.add("limit/next_part", next.part->name);
+  out.add("limit/next_frame_rate", 1.0 / next.busy);
+  for (const PartLoad& load : all)
+    out.of(load.part->name).add("limit/utilisation_by_part/<part>", 100.0 * load.share);
+}
+
+}  // namespace
+
+const MetricTable& rate_table() {
+  constexpr const char* kRelaxed = "a run of the machine without that limit";
+  static const MetricTable table{
+      {"performance/frame_rate", "frames/s",
+       "Rate at which the host receives frames; 0 when there is one frame only.", kSteadyState},
+      {"performance/disparities_per_second", "1/s", "Frame rate times processed pixels, valid or not.",
+       kSteadyState},
+      {"performance/evaluations_per_second", "1/s",
+       "Candidate disparities compared: frame rate times processed pixels times disparity range.",
+       kSteadyState},
+      {"latency/<span>_first_frame", "ms", "What the first frame took <span>.", "frame 1"},
+      {"latency/<span>_mean", "ms",
+       "What frames took <span>, mean; a span that begins with the frame in memory contains the wait for the "
+       "frames before.",
+       kSteadyState},
+      {"latency/<span>_p50", "ms", "Half of the frames took at most this <span> (up to 1.6 % too large).",
+       kSteadyState},
+      {"latency/<span>_p95", "ms", "95 % of the frames took at most this <span> (up to 1.6 % too large).",
+       kSteadyState},
+      {"latency/<span>_p99", "ms", "99 % of the frames took at most this <span> (up to 1.6 % too large).",
+       kSteadyState},
+      {"latency/<span>_largest", "ms", "What the slowest frame took <span>.", kSteadyState},
+      {"limit/part", "",
+       "The part that is at work (nearly) all the time; of several, the first that the data meets. none: no "
+       "part is at work for "
+       "95 % of the time, so that what limits lies between them: FIFO depths, frame buffers, or the "
+       "look-ahead that each frame "
+       "fills anew.",
+       kSteadyState},
+      {"limit/key", "", "The configuration keys that move this limit.", kSteadyState},
+      {"limit/utilisation", "%", "Share of the time in which the busiest part is at work.", kSteadyState},
+      {"limit/next_part", "", "The part that would limit if this one did not.", kSteadyState},
+      {"limit/next_frame_rate", "frames/s", "The frame rate at which the next part would limit.",
+       kSteadyState},
+      {"limit/utilisation_by_part/<part>", "%",
+       "Share of the time in which the part is at work; a DMA engine is when all requests that it may have "
+       "are under way.",
+       kSteadyState},
+      {"limit/verdict", "",
+       "What limits, and what taking it away would gain, in a sentence (--no-verdict leaves it and the next "
+       "three out).",
+       kRelaxed},
+      {"limit/relaxation", "",
+       "The limit that gains most when it alone is taken away, of those that were tried: that of the busiest "
+       "part, and all "
+       "others where it gains nothing.",
+       kRelaxed},
+      {"limit/relaxed_frame_rate", "frames/s", "The frame rate without that limit.", kRelaxed},
+      {"limit/relaxed_part", "", "The part that limits then.", kRelaxed},
+  };
+  return table;
+}
+
+void add_rates(MetricGroup& root, const Machine& machine, const SteadyWindow& window) {
+  const MetricWriter out = MetricWriter(root, rate_table()).over(window.text);
+  add_performance(out, machine, window);
+  add_latency(out, machine, window);
+  add_limit(out, machine, window);
+}
+
+}  // namespace parallax
