@@ -15,6 +15,7 @@
 #include "platform/commands/command_context.hpp"
 #include "platform/commands/compare_runs_command.hpp"
 #include "platform/commands/config_command.hpp"
+#include "platform/commands/exit_codes.hpp"
 #include "platform/commands/glossary_command.hpp"
 #include "platform/commands/map_command.hpp"
 #include "platform/commands/memory_command.hpp"
@@ -29,9 +30,6 @@
 
 namespace parallax {
 namespace {
-
-constexpr int kBadInput = 2;
-constexpr int kInternalError = 3;
 
 /// What could have been written where `word` stands: the options, or the commands.
 std::vector<std::string> alternatives(const CLI::App& app, const std::string& word) {

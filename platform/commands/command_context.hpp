@@ -17,7 +17,10 @@ struct CommandContext {
   std::ostream& err;  ///< messages
   CommandLine command_line;
   Verbosity verbosity = Verbosity::kNormal;
-  std::function<int()> action{};  ///< returns the exit code; throws UserError for bad input
+  std::function<int()> action{};  ///< returns the exit code (exit_codes.hpp); throws UserError for bad input
 };
+
+/// Whether standard error shows how far a command is: at a terminal, unless told to be quiet.
+bool shows_progress(const CommandContext& context);
 
 }  // namespace parallax

@@ -3,6 +3,9 @@
 
 #include <cstddef>
 
+#include "platform/commands/command_context.hpp"
+#include "platform/commands/exit_codes.hpp"
+
 namespace parallax {
 namespace {
 
@@ -33,5 +36,10 @@ Interruption::~Interruption() {
 }
 
 int Interruption::signal() const { return noted; }
+
+int interrupted_after(const std::string& how_far, CommandContext& context, const Interruption& interruption) {
+  context.err << "parallax: interrupted after " << how_far << '\n';
+  return ended_by(interruption.signal());
+}
 
 }  // namespace parallax

@@ -3,8 +3,11 @@
 
 #include <array>
 #include <csignal>
+#include <string>
 
 namespace parallax {
+
+struct CommandContext;
 
 /// While it lives, SIGINT (Ctrl-C) and SIGTERM are noted instead of ending the program, so that a run can
 /// stop in an orderly way. Each is noted once: the second one ends the program at once. A signal that was
@@ -23,5 +26,9 @@ class Interruption {
  private:
   std::array<struct sigaction, 2> before_{};
 };
+
+/// Says how far a command came, "12 of 40 points", and returns the exit code of a program that a signal
+/// ended.
+int interrupted_after(const std::string& how_far, CommandContext& context, const Interruption& interruption);
 
 }  // namespace parallax

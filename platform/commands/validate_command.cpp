@@ -11,6 +11,7 @@
 
 #include "platform/commands/command_context.hpp"
 #include "platform/commands/common_options.hpp"
+#include "platform/commands/exit_codes.hpp"
 #include "platform/commands/interruption.hpp"
 #include "platform/config/preset.hpp"
 #include "platform/results/output_folder.hpp"
@@ -20,9 +21,6 @@
 
 namespace parallax {
 namespace {
-
-constexpr int kOutside = 1;
-constexpr int kSignalled = 128;  // as shells report a program that a signal ended
 
 struct ValidateOptions {
   std::vector<std::string> rows = published_row_files();
@@ -56,9 +54,8 @@ int validate(const ValidateOptions& options, CommandContext& context) {
   const std::vector<PublishedRow> rows = read_rows(options);
   const Interruption interruption;
   const auto interrupted = [&interruption] { return interruption.requested(); };
-  auto progress = std::make_unique<Progress>(
-      context.err, context.verbosity != Verbosity::kQuiet && standard_error_is_terminal(), "rows",
-      static_cast<std::int64_t>(rows.size()));
+  auto progress = std::make_unique<Progress>(context.err, shows_progress(context), "rows",
+                                             static_cast<std::int64_t>(rows.size()));
   const std::vector<ValidatedRow> validated = validate_rows(
       rows, [&] { progress->advance(); }, interrupted);
   progress.reset();
@@ -66,14 +63,13 @@ int validate(const ValidateOptions& options, CommandContext& context) {
   std::string text = table(validated);
   if (options.sensitivity && !interruption.requested()) {
     const std::vector<ValidatedRow> moved = rows_with_fitted_parameters(validated);
-    const std::vector<Sensitivity> found = sensitivities(
-        moved, [] {}, interrupted);
+    const std::vector<Sensitivity> found = sensitivities(moved, interrupted);
     tree["sensitivity"] = to_json(moved, found);
     text += "\n" + table(moved, found);
   }
   if (interruption.requested()) {
-    context.err << fmt::format("parallax: interrupted after {} of {} rows\n", validated.size(), rows.size());
-    return kSignalled + interruption.signal();
+    return interrupted_after(fmt::format("{} of {} rows", validated.size(), rows.size()), context,
+                             interruption);
   }
   if (!options.out.empty()) {
     OutputFolder folder(options.out);
@@ -85,7 +81,7 @@ int validate(const ValidateOptions& options, CommandContext& context) {
   } else if (context.verbosity != Verbosity::kQuiet) {
     context.out << text;
   }
-  return all_within(validated) ? 0 : kOutside;
+  return all_within(validated) ? 0 : kNotAsExpected;
 }
 
 }  // namespace

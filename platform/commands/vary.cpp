@@ -5,17 +5,17 @@
 
 #include <algorithm>
 #include <memory>
-#include <set>
 #include <utility>
 
 #include "platform/commands/command_context.hpp"
+#include "platform/commands/exit_codes.hpp"
 #include "platform/commands/interruption.hpp"
-#include "platform/commands/timing_inputs.hpp"
-#include "platform/config/config_writer.hpp"
+#include "platform/commands/notes.hpp"
 #include "platform/config/nearest_name.hpp"
 #include "platform/config/preset.hpp"
 #include "platform/config/preset_file.hpp"
-#include "platform/evaluation/timing_evaluator.hpp"
+#include "platform/evaluation/evaluation_inputs.hpp"
+#include "platform/evaluation/evaluation_pool.hpp"
 #include "platform/results/output_folder.hpp"
 #include "platform/results/progress.hpp"
 #include "platform/results/result_names.hpp"
@@ -24,11 +24,7 @@
 namespace parallax {
 namespace {
 
-using Status = TimingResult::Status;
-
 constexpr std::size_t kMostPoints = 100'000;
-constexpr int kSomePointFailed = 1;
-constexpr int kSignalled = 128;  // as shells report a program that a signal ended
 
 /// A key and the values that it takes in turn, as they were written.
 struct Axis {
@@ -115,13 +111,12 @@ nlohmann::ordered_json as_json(const std::string& assignment) {
 class Grid {
  public:
   Grid(const RunOptions& options, CommandContext& context)
-      : options_(options),
-        context_(context),
-        input_(options, [this](const std::string& line) { note(line); }) {
+      : options_(options), context_(context), notes_(context), inputs_(options) {
     const Configuration configuration = load_configuration(options.configuration, preset_folders());
     axes_ = read_axes(options, configuration);
-    points_ = combinations(axes_);
-    input_.open(configuration.machine);  // a wrong path is one error, not one a point
+    for (Point& point : combinations(axes_)) points_.push_back({std::move(point)});
+    // A wrong path is one error, not one a point.
+    inputs_.open(configuration.machine, [this](const std::string& line) { notes_(line); });
   }
 
   int run() {
@@ -130,58 +125,49 @@ class Grid {
       folder_ = std::make_unique<OutputFolder>(options_.out);
       folder_->replace(is_result_name);
     }
-    const bool quiet = context_.verbosity == Verbosity::kQuiet;
     // At a terminal the growing table is progress enough.
-    Progress progress(context_.err, options_.json && !quiet && standard_error_is_terminal(), "points",
+    Progress progress(context_.err, options_.json && shows_progress(context_), "points",
                       static_cast<std::int64_t>(points_.size()));
-    auto all = nlohmann::ordered_json::array();
-    int code = 0;
-    if (!options_.json && !quiet) context_.out << header();
-    for (std::size_t i = 0; i < points_.size(); ++i) {
-      TimingResult result = measure(points_[i], interruption);
-      if (result.status == Status::kInterrupted) {
-        context_.err << fmt::format("parallax: interrupted after {} of {} points\n", i, points_.size());
-        return kSignalled + interruption.signal();
-      }
-      if (result.status != Status::kDone) code = kSomePointFailed;
-      if (!options_.json && !quiet) context_.out << row(i, result) << std::flush;
-      if (folder_ && result.status == Status::kDone) {
-        folder_->write(fmt::format("point_{:04}/timing.json", i), result.metrics.dump(2) + "\n");
-        folder_->publish();
-      }
-      if (options_.json) all.push_back(entry(i, std::move(result)));
-      progress.advance();
-    }
-    if (options_.json) context_.out << all.dump(2) << '\n';
-    return code;
+    if (prints_table()) context_.out << header() << std::flush;
+    EvaluationPool pool(
+        [this](const Variant& point, const NoticeSink& notice) { return prepare(point, notice); });
+    const std::size_t taken = pool.evaluate(
+        points_, [&] { return interruption.requested(); },
+        [&](std::size_t index, EvaluationResult result) {
+          take(index, std::move(result));
+          progress.advance();
+        });
+    if (taken < points_.size())
+      return interrupted_after(fmt::format("{} of {} points", taken, points_.size()), context_, interruption);
+    if (options_.json) context_.out << all_.dump(2) << '\n';
+    return all_done_ ? 0 : kNotAsExpected;
   }
 
  private:
-  void note(const std::string& line) {
-    if (context_.verbosity != Verbosity::kQuiet && said_.insert(line).second) {
-      context_.err << "parallax: note: " << line << '\n';
-    }
+  EvaluationCase prepare(const Variant& point, const NoticeSink& notice) {
+    ConfigurationRequest request = options_.configuration;
+    request.assignments.insert(request.assignments.end(), point.assignments.begin(), point.assignments.end());
+    EvaluationCase one{load_configuration(request, preset_folders()), {}};
+    one.input = inputs_.prepare(one.configuration.machine, notice);
+    std::vector<std::string> alone;
+    for (const std::string& assignment : point.assignments) alone.insert(alone.end(), {"--set", assignment});
+    one.input.command = context_.command_line.with({"--vary", "--out"}, alone).text();
+    return one;
   }
 
-  TimingResult measure(const Point& point, const Interruption& interruption) {
-    if (interruption.requested()) return {Status::kInterrupted, nullptr, "interrupted"};
-    try {
-      ConfigurationRequest request = options_.configuration;
-      request.assignments.insert(request.assignments.end(), point.begin(), point.end());
-      const Configuration configuration = load_configuration(request, preset_folders());
-      TimingInput input = input_.prepare(configuration.machine);
-      std::vector<std::string> alone;
-      for (const std::string& assignment : point) alone.insert(alone.end(), {"--set", assignment});
-      input.command = context_.command_line.with({"--vary", "--out"}, alone).text();
-      TimingResult result = TimingEvaluator(std::move(input), [&] {
-                              return interruption.requested();
-                            }).evaluate(configuration.machine);
-      if (result.status == Status::kDone) result.metrics["configuration"] = to_json(configuration, false);
-      return result;
-    } catch (const UserError& error) {
-      return {Status::kInvalid, nullptr, error.what()};
+  void take(std::size_t index, EvaluationResult result) {
+    for (const std::string& note : result.notes) notes_(note);
+    all_done_ = all_done_ && result.done();
+    if (prints_table()) context_.out << row(index, result) << std::flush;
+    if (folder_ && result.done()) {
+      folder_->write(fmt::format("point_{:04}/timing.json", index),
+                     timing_json(result.metrics, result.configuration).dump(2) + "\n");
+      folder_->publish();
     }
+    if (options_.json) all_.push_back(entry(index, std::move(result)));
   }
+
+  bool prints_table() const { return !options_.json && context_.verbosity != Verbosity::kQuiet; }
 
   static std::size_t width(const Axis& axis) {
     std::size_t most = axis.key.size();
@@ -204,31 +190,23 @@ class Grid {
            });
   }
 
-  std::string row(std::size_t index, const TimingResult& result) const {
+  std::string row(std::size_t index, const EvaluationResult& result) const {
     std::string line = fmt::format("{:>5}", index);
     for (std::size_t i = 0; i < axes_.size(); ++i) {
-      line += fmt::format("  {:>{}}", value_of(points_[index][i]), width(axes_[i]));
+      line += fmt::format("  {:>{}}", value_of(points_[index].assignments[i]), width(axes_[i]));
     }
-    if (result.status != Status::kDone) {
-      return line + fmt::format("  {}: {}\n", name(result.status), result.advice());
-    }
-    const auto metric = [&](const char* group, const char* metric_name) {
-      return result.metrics.at(group).at(metric_name).at("value");
-    };
-    if (range_varies())
-      line += fmt::format("  {:>11}", metric("input", "disparity_range").get<std::int64_t>());
-    if (metric("performance", "frame_rate") == 0) return line + "  one frame has no rate\n";
-    line += fmt::format("  {:>7.2f} fps  {:>8.3f} ms", metric("performance", "frame_rate").get<double>(),
-                        metric("latency", "exposure_to_host_mean").get<double>());
-    return line + fmt::format("  {} at {:.1f} %\n", metric("limit", "part").get<std::string>(),
-                              metric("limit", "utilisation").get<double>());
+    if (!result.done()) return line + fmt::format("  {}: {}\n", name(result.status), result.advice());
+    if (range_varies()) line += fmt::format("  {:>11}", result.disparities);
+    if (result.rate == 0) return line + "  one frame has no rate\n";
+    return line + fmt::format("  {:>7.2f} fps  {:>8.3f} ms  {} at {:.1f} %\n", result.rate,
+                              result.latency.exposure_to_host, result.limit.part, result.limit.utilisation);
   }
 
-  nlohmann::ordered_json entry(std::size_t index, TimingResult result) const {
+  nlohmann::ordered_json entry(std::size_t index, EvaluationResult result) const {
     nlohmann::ordered_json point{{"point", index}, {"status", name(result.status)}};
-    for (const std::string& assignment : points_[index]) point["set"].update(as_json(assignment));
-    if (result.status == Status::kDone) {
-      point["timing"] = std::move(result.metrics);
+    for (const std::string& assignment : points_[index].assignments) point["set"].update(as_json(assignment));
+    if (result.done()) {
+      point["timing"] = timing_json(result.metrics, std::move(result.configuration));
     } else {
       point["message"] = std::move(result.message);
     }
@@ -237,11 +215,13 @@ class Grid {
 
   const RunOptions& options_;
   CommandContext& context_;
+  Notes notes_;
+  EvaluationInputs inputs_;
   std::vector<Axis> axes_;
-  std::vector<Point> points_;
-  TimingInputs input_;
+  std::vector<Variant> points_;
   std::unique_ptr<OutputFolder> folder_;
-  std::set<std::string> said_;  // notes, once each
+  nlohmann::ordered_json all_ = nlohmann::ordered_json::array();  // for --json
+  bool all_done_ = true;
 };
 
 }  // namespace

@@ -20,11 +20,12 @@ Relaxation clock(Relief limit, const char* name, std::int64_t hertz) {
 }
 
 // FIFOs between stages; those of DMA engines have keys of their own.
-std::vector<std::string> deeper_fifos(const nlohmann::ordered_json& metrics) {
+std::vector<std::string> deeper_fifos(const MetricGroup& metrics) {
   std::vector<std::string> assignments;
   for (const std::string& name : pipeline_stream_names()) {
-    if (!metrics.at("streams").contains(name)) continue;  // a machine without it
-    const std::int64_t depth = metrics.at("streams").at(name).at("depth").at("value");
+    const Metric* const metric = metrics.find("streams/" + name + "/depth");
+    if (metric == nullptr) continue;  // a machine without it
+    const std::int64_t depth = metric->count();
     assignments.push_back(fmt::format("streams.{}.depth={}", name,
                                       std::max(depth, std::min(kDeeper * depth + 1024, kDeepest))));
   }
@@ -67,7 +68,7 @@ std::int64_t larger_memory(const MemoryConfig& config) {
 
 }  // namespace
 
-std::vector<Relaxation> relaxations(const MachineConfig& config, const nlohmann::ordered_json& metrics) {
+std::vector<Relaxation> relaxations(const MachineConfig& config, const MetricGroup& metrics) {
   std::vector<Relaxation> all{
       {Relief::kFifos, "between stages, 16 times and 1024 tokens deeper", "deeper FIFOs",
        deeper_fifos(metrics)},

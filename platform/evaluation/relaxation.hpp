@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "platform/config/machine_config.hpp"
 #include "platform/machine/part.hpp"
+#include "traces/metrics.hpp"
 
 namespace parallax {
 
@@ -22,8 +22,8 @@ struct Relaxation {
   std::string name() const { return name_of(limit); }
 };
 
-/// All that make sense for a machine: those that would change nothing are left out. `metrics` is its timing
-/// (timing.json), for the depths that its FIFOs have.
-std::vector<Relaxation> relaxations(const MachineConfig& config, const nlohmann::ordered_json& metrics);
+/// All that make sense for a machine: those that would change nothing are left out. `metrics`: of its
+/// run, for the depths that its FIFOs have.
+std::vector<Relaxation> relaxations(const MachineConfig& config, const MetricGroup& metrics);
 
 }  // namespace parallax

@@ -14,14 +14,6 @@ using Json = nlohmann::ordered_json;
 // Gains below this are those of the steady state's own rounding, %.
 constexpr double kNoise = 0.1;
 
-double number(const Json& metrics, const char* group, const char* name) {
-  return metrics.at(group).at(name).at("value").get<double>();
-}
-
-std::string limiting_part(const Json& metrics) {
-  return metrics.contains("limit") ? metrics.at("limit").at("part").at("value").get<std::string>() : "none";
-}
-
 Json metric(double value, const char* unit, const char* description) {
   return {{"value", value}, {"unit", unit}, {"description", description}};
 }
@@ -40,21 +32,21 @@ const RelaxedLimit* RelaxedLimits::limit() const {
   return gains.empty() || gains.front().gain < kNoise ? nullptr : &gains.front();
 }
 
-RelaxedLimits relaxed_limits(const Json& base, const std::vector<Relaxation>& relaxations,
-                             const std::vector<TimingResult>& results) {
+RelaxedLimits relaxed_limits(const EvaluationResult& base, const std::vector<Relaxation>& relaxations,
+                             const std::vector<EvaluationResult>& results) {
   RelaxedLimits limits;
-  limits.frame_rate = number(base, "performance", "frame_rate");
-  limits.latency = number(base, "latency", "exposure_to_host_mean");
+  limits.frame_rate = base.rate;
+  limits.latency = base.latency.exposure_to_host;
   for (std::size_t i = 0; i < results.size(); ++i) {
     RelaxedLimit limit;
     limit.relaxation = relaxations[i];
-    limit.measured = results[i].status == TimingResult::Status::kDone;
+    limit.measured = results[i].done();
     if (limit.measured) {
-      limit.frame_rate = number(results[i].metrics, "performance", "frame_rate");
-      limit.latency = number(results[i].metrics, "latency", "exposure_to_host_mean");
+      limit.frame_rate = results[i].rate;
+      limit.latency = results[i].latency.exposure_to_host;
       // To a thousandth of a percent: what is less are the roundings of a period.
       limit.gain = std::round(1e5 * (limit.frame_rate / limits.frame_rate - 1)) / 1e3 + 0.0;
-      limit.next_part = limiting_part(results[i].metrics);
+      limit.next_part = results[i].limit.part;
     } else {
       limit.message = results[i].message.substr(0, results[i].message.find('\n'));
     }

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "platform/evaluation/evaluation_result.hpp"
 #include "platform/evaluation/relaxation.hpp"
-#include "platform/evaluation/timing_evaluator.hpp"
 
 namespace parallax {
 
@@ -31,9 +31,9 @@ struct RelaxedLimits {
   const RelaxedLimit* limit() const;
 };
 
-/// `base`: timing.json of the machine as it is. `results`: of the relaxations, in their order.
-RelaxedLimits relaxed_limits(const nlohmann::ordered_json& base, const std::vector<Relaxation>& relaxations,
-                             const std::vector<TimingResult>& results);
+/// `base`: of the machine as it is. `results`: of the relaxations, in their order.
+RelaxedLimits relaxed_limits(const EvaluationResult& base, const std::vector<Relaxation>& relaxations,
+                             const std::vector<EvaluationResult>& results);
 
 std::string to_text(const RelaxedLimits& limits);
 nlohmann::ordered_json to_json(const RelaxedLimits& limits);

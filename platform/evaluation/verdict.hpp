@@ -1,19 +1,36 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <functional>
 #include <string>
+#include <vector>
 
 #include "platform/evaluation/relaxed_limits.hpp"
+#include "platform/machine/machine.hpp"
 #include "traces/metrics.hpp"
 
 namespace parallax {
 
-/// What limits, in one sentence. `base`: timing.json of the machine as it is. `part`: that of its parts which
-/// is at work all the time; null where there is none.
-std::string verdict(const nlohmann::ordered_json& base, const Part* part, const RelaxedLimits& limits);
+/// Evaluates the machine with each of these limits alone taken away, in their order.
+using Trial = std::function<std::vector<EvaluationResult>(const std::vector<Relaxation>&)>;
 
-/// Adds to the group "limit" of a run's metrics what taking limits away has shown.
-void add_verdict(MetricGroup& root, const std::string& sentence, const RelaxedLimits& limits);
+/// How many limits are tried.
+enum class Thoroughness {
+  kUntilOneGains,  ///< that of the busiest part; if it gains nothing, all the others
+  kAll,
+};
+
+/// What limits a machine, and what has shown it.
+struct Verdict {
+  std::string sentence;
+  RelaxedLimits limits;  ///< those that were tried
+};
+
+/// `base`: of the machine as it is, done, with a frame rate.
+Verdict find_verdict(const Machine& machine, const EvaluationResult& base, Thoroughness thoroughness,
+                     const Trial& trial);
+
+/// Adds it to the group "limit" of a run's metrics.
+void add_verdict(MetricGroup& root, const Verdict& verdict);
 
 }  // namespace parallax

@@ -39,12 +39,14 @@ void gather_metrics(const MetricGroup& group, const std::string& path, Leaves& l
   for (const MetricGroup& child : group.groups) gather_metrics(child, path + child.name + "/", leaves);
 }
 
-// All but those of this computer.
+// All but those of this computer, and what follows from the configuration.
 Leaves results_of(const RunReport& report) {
   Leaves leaves;
   gather_metrics(report.metrics, "", leaves);
-  const auto is_of_run = [](const auto& leaf) { return leaf.first.rfind("run/", 0) == 0; };
-  leaves.erase(std::remove_if(leaves.begin(), leaves.end(), is_of_run), leaves.end());
+  const auto left_out = [](const auto& leaf) {
+    return leaf.first.rfind("run/", 0) == 0 || leaf.first.rfind("schema/", 0) == 0;
+  };
+  leaves.erase(std::remove_if(leaves.begin(), leaves.end(), left_out), leaves.end());
   return leaves;
 }
 

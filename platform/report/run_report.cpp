@@ -10,7 +10,7 @@
 #include <system_error>
 #include <utility>
 
-#include "platform/results/version.hpp"
+#include "platform/results/result_schema.hpp"
 #include "tlm/error.hpp"
 
 namespace parallax {
@@ -28,6 +28,20 @@ std::string read(const fs::path& path) {
 
 UserError damaged(const fs::path& file, const char* what) {
   return UserError(fmt::format("{}: damaged, {}; run parallax again", file.string(), what));
+}
+
+void check_schema(const fs::path& file, const nlohmann::ordered_json& tree) {
+  const nlohmann::ordered_json::json_pointer schema("/schema/version/value"), program("/run/version/value");
+  if (!tree.is_object() || !tree.contains(program))
+    throw UserError(fmt::format("{}: no timing.json of parallax, it has no run/version", file.string()));
+  if (!tree.contains(schema)) {
+    throw UserError(
+        fmt::format("{}: has no schema/version, an older parallax wrote it; run it again", file.string()));
+  }
+  if (const auto& version = tree.at(schema); version != kResultSchema) {
+    throw UserError(fmt::format("{}: its schema/version is {}, this parallax reads {}; run it again",
+                                file.string(), version.dump(), kResultSchema));
+  }
 }
 
 RunReport report_in(const fs::path& file, nlohmann::ordered_json tree) {
@@ -62,14 +76,7 @@ RunReport read_run_report(const std::string& path) {
   }
   const auto tree = nlohmann::ordered_json::parse(read(file), nullptr, false);
   if (tree.is_discarded()) throw damaged(file, "this is no JSON");
-  const nlohmann::ordered_json::json_pointer version_path("/run/version/value");
-  if (!tree.is_object() || !tree.contains(version_path) || !tree.at(version_path).is_string()) {
-    throw UserError(fmt::format("{}: no timing.json of parallax, it has no run/version", file.string()));
-  }
-  if (const std::string by = tree.at(version_path); by != version()) {
-    throw UserError(
-        fmt::format("{}: written by version {}, this is {}; run it again", file.string(), by, version()));
-  }
+  check_schema(file, tree);
   try {
     return report_in(file, tree);
   } catch (const MetricError& damage) {

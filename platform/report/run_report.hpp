@@ -16,7 +16,7 @@ struct RunReport {
 };
 
 /// `path`: a folder of results, or the file itself. Throws UserError when there is none, when it is damaged,
-/// and when another version wrote it.
+/// and when its schema/version is another (result_schema.hpp).
 RunReport read_run_report(const std::string& path);
 
 /// Another JSON file of results, such as profile.json; null where there is none. Throws UserError when it is

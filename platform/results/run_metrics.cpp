@@ -9,6 +9,7 @@
 #include "platform/results/memory_metrics.hpp"
 #include "platform/results/pipeline_metrics.hpp"
 #include "platform/results/rate_metrics.hpp"
+#include "platform/results/result_schema.hpp"
 #include "platform/results/version.hpp"
 
 namespace parallax {
@@ -80,6 +81,12 @@ void add_quality(MetricGroup& root, const RunTotals& totals) {
 const MetricTable& run_table() {
   constexpr const char* kImages = "the frames with images";
   static const MetricTable table{
+      {"schema/version", "",
+       "Version of the names and units in this file: results of the same version can be compared.", ""},
+      {"schema/configuration", "",
+       "Hash of the configuration: equal for two runs of machines whose keys all have the same values, however "
+       "they were given.",
+       ""},
       {"run/status", "", "done, or stuck: the machine came to a halt before the host had all frames.", ""},
       {"run/version", "", "Version of the model.", ""},
       {"run/revision", "", "Git revision that the model was built from.", ""},
@@ -155,6 +162,7 @@ const MetricTable& run_table() {
 MetricGroup measure(const Machine& machine, const RunTotals& totals, int image_width, int image_height) {
   const SteadyWindow window = steady_window(machine);
   MetricGroup root;
+  add_schema(root, machine.config());
   add_run(root, totals, "done", machine.snapshots().back().time);
   add_input(root, machine, totals, image_width, image_height);
   add_cameras(root, machine, machine.snapshots().back().cameras);
@@ -172,6 +180,7 @@ MetricGroup measure_stuck(const Machine& machine, const Deadlock& deadlock, cons
   SteadyWindow window;
   window.text = "until it got stuck";
   MetricGroup root;
+  add_schema(root, machine.config());
   add_run(root, totals, "stuck", sc_core::sc_time_stamp());
   add_input(root, machine, totals, image_width, image_height);
   add_deadlock(root, deadlock);

@@ -25,12 +25,12 @@ struct RunTotals {
   double peak_megabytes = 0;
 };
 
-/// Everything that `timing.json` and the summary say of a run: "run", "input", "performance", "latency",
-/// "limit", "memory", "energy", "stages", "streams", "quality".
+/// Everything that `timing.json` and the summary say of a run: "schema", "run", "input", "performance",
+/// "latency", "limit", "memory", "energy", "stages", "streams", "quality".
 MetricGroup measure(const Machine& machine, const RunTotals& totals, int image_width, int image_height);
 
-/// Of a machine that got stuck: "run", "input", "deadlock", "stages", "streams", "quality"; stages and
-/// streams until then.
+/// Of a machine that got stuck: "schema", "run", "input", "deadlock", "stages", "streams", "quality"; stages
+/// and streams until then.
 MetricGroup measure_stuck(const Machine& machine, const Deadlock& deadlock, const RunTotals& totals,
                           int image_width, int image_height);
 

@@ -39,28 +39,12 @@ std::optional<std::string> scaled(const EffectiveKey& key, double factor) {
   return std::nullopt;
 }
 
-// How each row's prediction changes when its preset's own value of a fitted parameter is scaled; not at all
-// where that preset has not fitted it.
-std::vector<double> changes(const std::vector<ValidatedRow>& rows, const std::string& path, double factor,
-                            const std::function<void()>& done, const std::function<bool()>& interrupted) {
-  std::vector<PublishedRow> changed;
-  std::vector<std::size_t> places;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    for (const EffectiveKey& key : fitted_keys(rows[i].row)) {
-      const std::optional<std::string> assignment = scaled(key, factor);
-      if (path_of(key) != path || !assignment) continue;
-      changed.push_back(rows[i].row);
-      changed.back().assignments.push_back(*assignment);
-      places.push_back(i);
-    }
-  }
-  std::vector<double> percent(rows.size());
-  const std::vector<ValidatedRow> results = validate_rows(changed, done, interrupted);
-  for (std::size_t i = 0; i < results.size(); ++i) {
-    percent[places[i]] = 100 * (results[i].predicted / rows[places[i]].predicted - 1);
-  }
-  return percent;
-}
+// A row with its preset's own value of a fitted parameter scaled.
+struct ScaledRow {
+  std::size_t row;
+  std::size_t key;
+  double factor;
+};
 
 }  // namespace
 
@@ -73,24 +57,33 @@ std::vector<ValidatedRow> rows_with_fitted_parameters(const std::vector<Validate
 }
 
 std::vector<Sensitivity> sensitivities(const std::vector<ValidatedRow>& rows,
-                                       const std::function<void()>& done,
                                        const std::function<bool()>& interrupted) {
-  std::vector<Sensitivity> result;
-  std::vector<EffectiveKey> keys;  // of any row
-  for (const ValidatedRow& row : rows) {
-    for (const EffectiveKey& key : fitted_keys(row.row)) {
-      const bool known = std::any_of(keys.begin(), keys.end(), [&](const EffectiveKey& other) {
-        return path_of(other) == path_of(key);
-      });
-      if (!known && scaled(key, 1)) keys.push_back(key);
+  std::vector<Sensitivity> result;  // of each key that any row's preset has fitted
+  std::vector<PublishedRow> scaled_rows;
+  std::vector<ScaledRow> scalings;
+  for (std::size_t row = 0; row < rows.size(); ++row) {
+    for (const EffectiveKey& key : fitted_keys(rows[row].row)) {
+      if (!scaled(key, 1)) continue;
+      auto known = std::find_if(result.begin(), result.end(),
+                                [&](const Sensitivity& other) { return other.key == path_of(key); });
+      if (known == result.end()) {
+        const std::vector<double> unmoved(rows.size());
+        known = result.insert(known, {path_of(key), to_toml(key.value), unmoved, unmoved});
+      }
+      for (const double factor : {1 - kStep, 1 + kStep}) {
+        scalings.push_back({row, static_cast<std::size_t>(known - result.begin()), factor});
+        scaled_rows.push_back(rows[row].row);
+        scaled_rows.back().assignments.push_back(*scaled(key, factor));
+      }
     }
   }
-  for (const EffectiveKey& key : keys) {
-    const std::string path = path_of(key);
-    Sensitivity sensitivity{path, to_toml(key.value), changes(rows, path, 1 - kStep, done, interrupted), {}};
-    sensitivity.higher = changes(rows, path, 1 + kStep, done, interrupted);
-    if (interrupted()) return result;
-    result.push_back(std::move(sensitivity));
+  const std::vector<ValidatedRow> moved = validate_rows(
+      scaled_rows, [] {}, interrupted);
+  for (std::size_t i = 0; i < moved.size(); ++i) {
+    const ScaledRow& scaling = scalings[i];
+    Sensitivity& sensitivity = result[scaling.key];
+    (scaling.factor < 1 ? sensitivity.lower : sensitivity.higher)[scaling.row] =
+        100 * (moved[i].predicted / rows[scaling.row].predicted - 1);
   }
   return result;
 }

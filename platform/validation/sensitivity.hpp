@@ -21,11 +21,10 @@ struct Sensitivity {
 /// The rows that a fitted parameter could move: those of a preset that has one, with a prediction.
 std::vector<ValidatedRow> rows_with_fitted_parameters(const std::vector<ValidatedRow>& rows);
 
-/// Runs those rows with every integer or real key that the first row's preset tags as fitted, 10 % lower and
-/// 10 % higher than each row's own preset has it; rows whose preset has not fitted it do not move. `done` is
-/// called after each row; when interrupted it returns what it has.
+/// Evaluates those rows with every integer or real key that a row's preset tags as fitted, 10 % lower and 10
+/// % higher than each row's own preset has it; rows whose preset has not fitted it do not move. What has not
+/// been evaluated when interrupted does not move either.
 std::vector<Sensitivity> sensitivities(const std::vector<ValidatedRow>& rows,
-                                       const std::function<void()>& done,
                                        const std::function<bool()>& interrupted);
 
 std::string table(const std::vector<ValidatedRow>& rows, const std::vector<Sensitivity>& sensitivities);

@@ -6,73 +6,92 @@
 #include <algorithm>
 #include <map>
 #include <memory>
+#include <utility>
 
 #include "platform/config/preset.hpp"
-#include "platform/evaluation/timing_evaluator.hpp"
-#include "platform/input/image_padding.hpp"
-#include "platform/input/rectification_choice.hpp"
-#include "platform/input/run_input.hpp"
+#include "platform/evaluation/evaluation_inputs.hpp"
+#include "platform/evaluation/evaluation_pool.hpp"
 #include "tlm/error.hpp"
 
 namespace parallax {
 namespace {
 
-EncodedMap map_for(const PublishedRow& row, const MachineConfig& config) {
-  const Granularity granularity{static_cast<int>(config.image.width_granularity),
-                                static_cast<int>(config.image.height_granularity)};
-  const cv::Size padded = padded_size({row.width, row.height}, granularity);
-  if (row.rectified) return encode(identity_map(padded.width, padded.height, config.rectification.range));
-  RunOptions options;
-  options.size = fmt::format("{}x{}", row.width, row.height);
-  const NoticeSink silent = [](const std::string&) {};
-  const std::unique_ptr<FrameSource> source = open_source(options, config, silent);
-  return choose_rectification(options, config.rectification.range, *source, padded, silent).map;
+ConfigurationRequest request_of(const PublishedRow& row) {
+  ConfigurationRequest request;
+  request.preset = row.preset;
+  request.assignments = row.assignments;
+  return request;
 }
 
-TimingResult run(const PublishedRow& row, const ConfigurationRequest& request,
-                 const std::function<bool()>& interrupted) {
+std::string size_of(const PublishedRow& row) { return fmt::format("{}x{}", row.width, row.height); }
+
+// Of all rows with the same, one evaluation is enough.
+std::string machine_of(const PublishedRow& row) {
+  return fmt::format("{} {} {} {}", row.preset, size_of(row), row.rectified, fmt::join(row.assignments, " "));
+}
+
+// A row that is to be measured needs a machine that takes images of its size.
+void check(const PublishedRow& row) {
   MachineConfig config;
   try {
-    config = load_configuration(request, preset_folders()).machine;
+    config = load_configuration(request_of(row), preset_folders()).machine;
   } catch (const UserError& error) {
     throw UserError(fmt::format("{}: {}: {}", row.origin, row.name, error.what()));
   }
-  const auto beyond = [](const char* key, std::uint32_t most, int wanted) {
-    if (static_cast<std::uint32_t>(wanted) <= most) return std::string();
-    return fmt::format("{} = {} is less than the row's {} px", key, most, wanted);
+  if (row.refused) return;
+  const auto check_side = [&row](const char* key, std::uint32_t most, int wanted) {
+    if (static_cast<std::uint32_t>(wanted) <= most) return;
+    throw UserError(
+        fmt::format("{}: {}: {} = {} is less than the row's {} px", row.origin, row.name, key, most, wanted));
   };
-  for (const std::string& fault : {beyond("image.max_width", config.image.max_width, row.width),
-                                   beyond("image.max_height", config.image.max_height, row.height)}) {
-    if (fault.empty()) continue;
-    if (row.refused) return {TimingResult::Status::kInvalid, nullptr, fault};
-    throw UserError(fmt::format("{}: {}: {}", row.origin, row.name, fault));
-  }
-  const EncodedMap map = map_for(row, config);
-  TimingInput input;
-  input.width = row.width;
-  input.height = row.height;
-  input.map = &map;
-  return TimingEvaluator(input, interrupted).evaluate(config);
+  check_side("image.max_width", config.image.max_width, row.width);
+  check_side("image.max_height", config.image.max_height, row.height);
 }
 
-ValidatedRow compare(const PublishedRow& row, const TimingResult& result) {
-  using Status = TimingResult::Status;
+// The built-in scene in the sizes of the rows.
+class RowInputs {
+ public:
+  EvaluationCase prepare(const PublishedRow& row, const NoticeSink& notice) {
+    Configuration configuration = load_configuration(request_of(row), preset_folders());
+    MachineConfig any_size = configuration.machine;
+    any_size.image.width = any_size.image.height = 0;  // the row says it
+    const EvaluationInput input = inputs_of(row).prepare(any_size, notice);
+    return {std::move(configuration), input};
+  }
+
+ private:
+  struct Scene {
+    RunOptions options;
+    EvaluationInputs inputs{options};
+  };
+  EvaluationInputs& inputs_of(const PublishedRow& row) {
+    std::unique_ptr<Scene>& scene = scenes_[{size_of(row), row.rectified}];
+    if (scene == nullptr) {
+      scene = std::make_unique<Scene>();
+      scene->options.size = size_of(row);
+      scene->options.rectified = row.rectified;
+    }
+    return scene->inputs;
+  }
+  std::map<std::pair<std::string, bool>, std::unique_ptr<Scene>> scenes_;
+};
+
+ValidatedRow compare(const PublishedRow& row, const EvaluationResult& result) {
   ValidatedRow validated;
   validated.row = row;
   if (row.refused) {
-    validated.within = result.status == Status::kInvalid;
+    validated.within = result.status == EvaluationResult::Status::kInvalid;
     validated.limit = validated.within ? "refused" : "not refused";
     return validated;
   }
-  if (result.status != Status::kDone) {
+  if (!result.done()) {
     validated.limit = fmt::format("{}: {}", name(result.status), result.advice());
     return validated;
   }
-  const MetricGroup metrics = metrics_of(result.metrics);
-  validated.predicted = predicted(row, metrics);
+  validated.predicted = predicted(row, result.metrics);
   validated.deviation = 100 * (validated.predicted / row.published - 1);
   validated.within = validated.deviation >= row.least && validated.deviation <= row.most;
-  validated.limit = metrics.word("limit/part");
+  validated.limit = result.limit.part;
   return validated;
 }
 
@@ -101,19 +120,29 @@ double predicted(const PublishedRow& row, const MetricGroup& metrics) {
 std::vector<ValidatedRow> validate_rows(const std::vector<PublishedRow>& rows,
                                         const std::function<void()>& done,
                                         const std::function<bool()>& interrupted) {
-  std::map<std::string, TimingResult> results;  // by what is run
-  std::vector<ValidatedRow> validated;
-  for (const PublishedRow& row : rows) {
-    ConfigurationRequest request;
-    request.preset = row.preset;
-    request.assignments = row.assignments;
-    const std::string key = fmt::format("{} {}x{} {} {}", row.preset, row.width, row.height, row.rectified,
-                                        fmt::join(row.assignments, " "));
-    if (results.count(key) == 0) results.emplace(key, run(row, request, interrupted));
-    if (interrupted()) return validated;
-    validated.push_back(compare(row, results.at(key)));
-    done();
+  std::map<std::string, std::size_t> numbers;  // of the evaluations, by machine
+  std::vector<Variant> variants;               // the first row of each
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (!numbers.emplace(machine_of(rows[i]), variants.size()).second) continue;
+    check(rows[i]);
+    variants.push_back({{}, i});
   }
+  RowInputs inputs;
+  EvaluationPool pool([&](const Variant& variant, const NoticeSink& notice) {
+    return inputs.prepare(rows[variant.base], notice);
+  });
+  std::vector<EvaluationResult> results;
+  std::vector<ValidatedRow> validated;
+  pool.evaluate(variants, interrupted, [&](std::size_t, EvaluationResult result) {
+    results.push_back(std::move(result));
+    while (validated.size() < rows.size()) {
+      const PublishedRow& row = rows[validated.size()];
+      const std::size_t number = numbers.at(machine_of(row));
+      if (number >= results.size()) break;
+      validated.push_back(compare(row, results[number]));
+      done();
+    }
+  });
   return validated;
 }
 

@@ -20,9 +20,9 @@ struct ValidatedRow {
   bool within = false;   ///< the deviation is in the row's interval, or what had to be refused was
 };
 
-/// Runs the timing of every row, each in a process of its own (rows that differ in the metric alone share
-/// one), and compares. `done` is called after each row; `interrupted` is asked during a run. Throws UserError
-/// for a row that is no configuration at all. When interrupted it returns the rows until then.
+/// Evaluates the machine of every row (rows that differ in the metric alone share one) and compares. `done`
+/// is called after each row; `interrupted` is asked while machines are evaluated. Throws UserError for a row
+/// that is no configuration at all. When interrupted it returns the rows until then.
 std::vector<ValidatedRow> validate_rows(const std::vector<PublishedRow>& rows,
                                         const std::function<void()>& done,
                                         const std::function<bool()>& interrupted);

@@ -103,10 +103,21 @@ TEST_F(CompareRuns, RefusesWhatIsNoRun) {
   EXPECT_EQ(error("a other.json"),
             "parallax: error: other.json: no timing.json of parallax, it has no run/version\n");
   json tree = json::parse(whole);
-  tree["run"]["version"]["value"] = "0.0.1";
+  tree["schema"]["version"]["value"] = 2;
+  write("new/timing.json", tree.dump());
+  EXPECT_EQ(
+      error("new a"),
+      "parallax: error: new/timing.json: its schema/version is 2, this parallax reads 1; run it again\n");
+  tree.erase("schema");
   write("old/timing.json", tree.dump());
-  EXPECT_EQ(error("old a"),
-            "parallax: error: old/timing.json: written by version 0.0.1, this is 0.1.0; run it again\n");
+  EXPECT_EQ(
+      error("old a"),
+      "parallax: error: old/timing.json: has no schema/version, an older parallax wrote it; run it again\n");
+  // Who wrote it does not matter.
+  tree = json::parse(whole);
+  tree["run"]["version"]["value"] = "0.0.1";
+  write("other/timing.json", tree.dump());
+  EXPECT_EQ(program_("compare-runs a other").out, "no difference\n");
   tree = json::parse(whole);
   tree.erase("stages");
   write("less/timing.json", tree.dump());

@@ -17,3 +17,4 @@ run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR} -B ${area}/build -G ${GENERATO
 run(${CMAKE_COMMAND} --build ${area}/build)
 run(${area}/build/own_initiator)
 run(${area}/build/own_memory)
+run(${area}/build/own_exploration)

@@ -165,11 +165,12 @@ TEST_F(Report, BadInputIsOneLine) {
   write("out/timing.json", "{");
   EXPECT_EQ(error("report out"),
             "parallax: error: out/timing.json: damaged, this is no JSON; run parallax again\n");
-  write("out/timing.json", R"({"run": {"version": {"value": "0.0.7", "unit": ""}}})");
+  write(
+      "out/timing.json",
+      R"({"schema": {"version": {"value": 0, "unit": ""}}, "run": {"version": {"value": "0.0.7", "unit": ""}}})");
   EXPECT_EQ(
       error("report out"),
-      fmt::format("parallax: error: out/timing.json: written by version 0.0.7, this is {}; run it again\n",
-                  version()));
+      "parallax: error: out/timing.json: its schema/version is 0, this parallax reads 1; run it again\n");
   EXPECT_FALSE(std::filesystem::exists(program_ / "out/report.html"));
   run("--timing-only --size 64x48 -d 32");
   EXPECT_EQ(error("report out/timing.json"),

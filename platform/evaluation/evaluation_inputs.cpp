@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "platform/commands/timing_inputs.hpp"
-
-#include <utility>
+#include "platform/evaluation/evaluation_inputs.hpp"
 
 #include "platform/input/image_padding.hpp"
 #include "platform/input/rectification_choice.hpp"
@@ -9,35 +7,33 @@
 
 namespace parallax {
 
-TimingInputs::TimingInputs(const RunOptions& options, NoticeSink notice)
-    : options_(options), notice_(std::move(notice)) {}
-
-TimingInput TimingInputs::prepare(const MachineConfig& config) {
-  const FrameSource& source = source_for(config);
-  TimingInput input;
+EvaluationInput EvaluationInputs::prepare(const MachineConfig& config, const NoticeSink& notice) {
+  const FrameSource& source = source_for(config, notice);
+  EvaluationInput input;
   input.width = source.width();
   input.height = source.height();
-  input.map = &map_for(config, source);
+  input.map = &map_for(config, source, notice);
   input.frames = source.frames();
   input.timing_frames = options_.timing_frames;
   if (options_.left.empty() && options_.input.empty()) input.scene_seed = options_.scene.seed;
   return input;
 }
 
-const FrameSource& TimingInputs::source_for(const MachineConfig& config) {
+const FrameSource& EvaluationInputs::source_for(const MachineConfig& config, const NoticeSink& notice) {
   const bool scene = options_.left.empty() && options_.input.empty();
   const DisparityRange range = scene ? config.matching.range() : DisparityRange{};
   const ImageConfig& image = config.image;
   const SourceKey key{image.width,      image.height, image.max_width,
                       image.max_height, range.offset, range.count};
   if (source_ == nullptr || key != source_key_) {
-    source_ = open_source(options_, config, notice_);
+    source_ = open_source(options_, config, notice);
     source_key_ = key;
   }
   return *source_;
 }
 
-const EncodedMap& TimingInputs::map_for(const MachineConfig& config, const FrameSource& source) {
+const EncodedMap& EvaluationInputs::map_for(const MachineConfig& config, const FrameSource& source,
+                                            const NoticeSink& notice) {
   const cv::Size size(source.width(), source.height());
   const Granularity granularity{static_cast<int>(config.image.width_granularity),
                                 static_cast<int>(config.image.height_granularity)};
@@ -47,8 +43,8 @@ const EncodedMap& TimingInputs::map_for(const MachineConfig& config, const Frame
                    processed.height, range.window, range.fraction_bits};
   const auto found = maps_.find(key);
   if (found != maps_.end()) return found->second;
-  if (const std::string line = padding_notice(size, granularity); !line.empty()) notice_(line);
-  return maps_.emplace(key, choose_rectification(options_, range, source, processed, notice_).map)
+  if (const std::string line = padding_notice(size, granularity); !line.empty()) notice(line);
+  return maps_.emplace(key, choose_rectification(options_, range, source, processed, notice).map)
       .first->second;
 }
 

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "platform/evaluation/evaluate.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <exception>
+#include <new>
+
+#include "platform/evaluation/worker_process.hpp"
+#include "platform/input/image_padding.hpp"
+#include "platform/machine/machine.hpp"
+#include "platform/machine/steady_state.hpp"
+#include "platform/results/deadlock_report.hpp"
+#include "platform/results/peak_memory.hpp"
+#include "platform/results/run_metrics.hpp"
+#include "tlm/error.hpp"
+
+namespace parallax {
+namespace {
+
+using Status = EvaluationResult::Status;
+using State = WorkerProcess::State;
+
+constexpr int kAskEvery = 100;  // ms
+
+// In the process that is for this simulation.
+EvaluationResult simulate(const MachineConfig& config, const EvaluationInput& input) {
+  const auto began = std::chrono::steady_clock::now();
+  sc_core::sc_report_handler::set_actions(sc_core::SC_INFO, sc_core::SC_DO_NOTHING);
+  MachineInput machine_input;
+  machine_input.width = input.map->width;
+  machine_input.height = input.map->height;
+  machine_input.map = input.map;
+  machine_input.frames = frames_to_simulate(config, input.frames, input.timing_frames);
+  machine_input.timing_only = true;
+  const Machine machine("machine", config, machine_input);
+  sc_core::sc_start();
+  if (!machine.finished()) return not_measured(Status::kStuck, message(find_deadlock(machine)));
+  RunTotals totals;
+  totals.command = input.command;
+  totals.scene_seed = input.scene_seed;
+  totals.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+  totals.peak_megabytes = peak_memory_megabytes();
+  return measured(measure(machine, totals, input.width, input.height));
+}
+
+// What that process says, whatever happens.
+std::string simulate_to_text(const MachineConfig& config, const EvaluationInput& input) {
+  EvaluationResult result;
+  try {
+    result = simulate(config, input);
+  } catch (const UserError& error) {
+    result = not_measured(Status::kInvalid, error.what());
+  } catch (const sc_core::sc_report& report) {
+    result = not_measured(Status::kFailed, fmt::format("{}: {}", report.get_msg_type(), report.get_msg()));
+  } catch (const std::bad_alloc&) {
+    result = not_measured(Status::kFailed, "out of memory");
+  } catch (const std::exception& error) {
+    result = not_measured(Status::kFailed, error.what());
+  }
+  return to_text(result);
+}
+
+// Whether the map is one for this machine.
+void check_map(const MachineConfig& config, const EvaluationInput& input) {
+  const EncodedMap& map = *input.map;
+  const cv::Size processed = padded_size(
+      {input.width, input.height},
+      {static_cast<int>(config.image.width_granularity), static_cast<int>(config.image.height_granularity)});
+  if (processed.width != map.width || processed.height != map.height) {
+    throw UserError(fmt::format("images of {}x{} are processed as {}x{}, but the map has {}x{}", input.width,
+                                input.height, processed.width, processed.height, map.width, map.height));
+  }
+  if (!(map.range == config.rectification.range)) {
+    throw UserError(fmt::format(
+        "rectification.window is {} and rectification.fraction_bits {}, but the map has {} and {}",
+        config.rectification.range.window, config.rectification.range.fraction_bits, map.range.window,
+        map.range.fraction_bits));
+  }
+}
+
+}  // namespace
+
+EvaluationResult evaluate(const MachineConfig& config, const EvaluationInput& input,
+                          const std::function<bool()>& interrupted) {
+  try {
+    config.validate();
+    check_map(config, input);
+    WorkerProcess process([&](const std::string&) { return simulate_to_text(config, input); });
+    process.ask({});
+    while (process.state() == State::kWorking) {
+      if (interrupted()) return not_measured(Status::kInterrupted, "interrupted");
+      process.receive(kAskEvery);
+    }
+    if (process.state() == State::kAnswered) return evaluation_result(process.take_answer());
+    // A signal from the terminal reaches both: this process has noted it, the other has ended.
+    if (interrupted()) return not_measured(Status::kInterrupted, "interrupted");
+    return without_result(process.signal());
+  } catch (const UserError& error) {
+    return not_measured(Status::kInvalid, error.what());
+  } catch (const std::exception& error) {
+    return not_measured(Status::kFailed, error.what());
+  }
+}
+
+}  // namespace parallax

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "platform/evaluation/evaluation_result.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <utility>
+
+namespace parallax {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Status = EvaluationResult::Status;
+
+constexpr std::array<Status, 5> kStatuses{Status::kDone, Status::kInvalid, Status::kStuck, Status::kFailed,
+                                          Status::kInterrupted};
+
+}  // namespace
+
+std::string EvaluationResult::advice() const {
+  std::string line = message;
+  while (!line.empty() && line.back() == '\n') line.pop_back();
+  line.erase(0, line.rfind('\n') + 1);
+  return line.erase(0, line.find_first_not_of(' '));
+}
+
+EvaluationResult measured(MetricGroup metrics) {
+  EvaluationResult result;
+  result.status = Status::kDone;
+  result.rate = metrics.number("performance/frame_rate");
+  result.latency.first_pixel = metrics.number("latency/first_pixel_mean");
+  result.latency.last_pixel = metrics.number("latency/last_pixel_mean");
+  result.latency.exposure_to_host = metrics.number("latency/exposure_to_host_mean");
+  result.limit.part = metrics.word_or("limit/part", "none");
+  result.limit.utilisation = metrics.number_or("limit/utilisation", 0);
+  result.disparities = metrics.count("input/disparity_range");
+  result.metrics = std::move(metrics);
+  return result;
+}
+
+EvaluationResult not_measured(Status status, std::string message) {
+  EvaluationResult result;
+  result.status = status;
+  result.message = std::move(message);
+  return result;
+}
+
+EvaluationResult without_result(int signal) {
+  return not_measured(Status::kFailed, signal == 0 ? "the simulation ended without a result"
+                                                   : fmt::format("the simulation was ended by signal {} ({})",
+                                                                 signal, ::strsignal(signal)));
+}
+
+const char* name(Status status) {
+  switch (status) {
+    case Status::kDone:
+      return "done";
+    case Status::kInvalid:
+      return "invalid";
+    case Status::kStuck:
+      return "stuck";
+    case Status::kFailed:
+      return "failed";
+    case Status::kInterrupted:
+      return "interrupted";
+  }
+  return "";
+}
+
+Json timing_json(const MetricGroup& metrics, Json configuration) {
+  Json tree = to_json(metrics);
+  tree["configuration"] = std::move(configuration);
+  return tree;
+}
+
+std::string to_text(const EvaluationResult& result) {
+  return Json{{"status", name(result.status)},
+              {"message", result.message},
+              {"notes", result.notes},
+              {"metrics", to_json(result.metrics)},
+              {"configuration", result.configuration}}
+      .dump();
+}
+
+EvaluationResult evaluation_result(const std::string& text) {
+  Json tree = Json::parse(text, nullptr, false);
+  if (!tree.is_object() || !tree.contains("status")) return without_result(0);
+  const std::string word = tree.at("status");
+  const Status* const status =
+      std::find_if(kStatuses.begin(), kStatuses.end(), [&](Status s) { return word == name(s); });
+  EvaluationResult result = *status == Status::kDone ? measured(metrics_of(tree.at("metrics")))
+                                                     : not_measured(*status, tree.at("message"));
+  result.notes = tree.at("notes").get<std::vector<std::string>>();
+  result.configuration = std::move(tree.at("configuration"));
+  return result;
+}
+
+}  // namespace parallax
