@@ -10,10 +10,10 @@
 
 #include "platform/commands/command_context.hpp"
 #include "platform/commands/exit_codes.hpp"
-#include "platform/commands/run_frames.hpp"
 #include "platform/commands/interruption.hpp"
 #include "platform/commands/notes.hpp"
 #include "platform/commands/relax.hpp"
+#include "platform/commands/run_frames.hpp"
 #include "platform/commands/run_images.hpp"
 #include "platform/commands/run_results.hpp"
 #include "platform/commands/simulation.hpp"

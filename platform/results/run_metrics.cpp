@@ -84,7 +84,8 @@ const MetricTable& run_table() {
       {"schema/version", "",
        "Version of the names and units in this file: results of the same version can be compared.", ""},
       {"schema/configuration", "",
-       "Hash of the configuration: equal for two runs of machines whose keys all have the same values, however "
+       "Hash of the configuration: equal for two runs of machines whose keys all have the same values, "
+       "however "
        "they were given.",
        ""},
       {"run/status", "", "done, or stuck: the machine came to a halt before the host had all frames.", ""},

@@ -4,8 +4,8 @@
 #include <cstdlib>
 
 #include "platform/registers/register_map.hpp"
-#include "tests/cli/program.hpp"
 #include "tests/cli/markdown.hpp"
+#include "tests/cli/program.hpp"
 #include "tests/paths.hpp"
 #include "tests/platform/temporary_folder.hpp"
 
