@@ -77,7 +77,6 @@ std::unique_ptr<Watched> watch_as(StreamBase& stream, const TapConfig& config, b
 TapConfig cut(const Machine& machine, const StreamBase& stream) {
   const MachineConfig& config = machine.config();
   const std::string name = stream.basename();
-  const std::string module = stream.get_parent_object()->basename();
   const auto bytes = [](const DmaPortConfig& port) { return static_cast<std::size_t>(port.burst_bytes); };
   const std::size_t image = std::size_t{kWidth} * kHeight;
   const std::size_t output = OutputPacking::row_bytes(kWidth, config.link.output_left()) * kHeight;
@@ -93,10 +92,11 @@ TapConfig cut(const Machine& machine, const StreamBase& stream) {
   } else if (name == "output_bursts" || name == "link_bursts") {
     tap.values_per_token = bytes(name == "link_bursts" ? config.dma.link : config.dma.output);
     tap.values_per_piece = output;
-  } else if (name == "left_bursts" || name == "right_bursts") {
-    tap.values_per_token = bytes(module == "acquisition" ? config.dma.camera
-                                 : name == "left_bursts" ? config.dma.left
-                                                         : config.dma.right);
+  } else if (name.find("left_bursts") != std::string::npos ||
+             name.find("right_bursts") != std::string::npos) {
+    tap.values_per_token = bytes(name.rfind("camera_", 0) == 0 ? config.dma.camera
+                                 : name == "left_bursts"       ? config.dma.left
+                                                               : config.dma.right);
     tap.values_per_piece = image;
   }
   return tap;
