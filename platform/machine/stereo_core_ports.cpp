@@ -62,7 +62,9 @@ void StereoCore::describe_ports() {
 std::vector<MemoryPort*> StereoCore::buffer_ports() const {
   std::vector<MemoryPort*> ports;
   for (BufferEngines* engines : {rows_.get(), frame_.get()}) {
-    if (engines != nullptr) ports.insert(ports.end(), {&engines->write_port, &engines->read_port});
+    if (engines == nullptr) continue;
+    ports.push_back(&engines->write_port);
+    ports.push_back(&engines->read_port);
   }
   return ports;
 }
