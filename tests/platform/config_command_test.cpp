@@ -60,8 +60,8 @@ TEST_F(ConfigCommand, DocumentationReadsBackWithTagsAndSources) {
   EXPECT_NE(first.out.find("# Allowed: an integer from 0 to 255, unit: units.\n"
                            "p1 = { value = 11, tag = \"C\", source = \"command line\" }\n"),
             std::string::npos);
-  EXPECT_NE(first.out.find(
-                "May change from frame to frame: register stereo.algorithm_parameters_1,\n# field p1.\n"),
+  EXPECT_NE(first.out.find("May change from frame to\n"
+                           "# frame: register stereo.algorithm_parameters_1, field p1.\n"),
             std::string::npos)
       << first.out;
   const std::string path = folder.write("again.toml", first.out);
