@@ -22,8 +22,6 @@ namespace {
 using Status = EvaluationResult::Status;
 using State = WorkerProcess::State;
 
-constexpr int kAskEvery = 100;  // ms
-
 // In the process that is for this simulation.
 EvaluationResult simulate(const MachineConfig& config, const EvaluationInput& input) {
   const auto began = std::chrono::steady_clock::now();
@@ -91,7 +89,7 @@ EvaluationResult evaluate(const MachineConfig& config, const EvaluationInput& in
     process.ask({});
     while (process.state() == State::kWorking) {
       if (interrupted()) return not_measured(Status::kInterrupted, "interrupted");
-      process.receive(kAskEvery);
+      process.receive(WorkerProcess::kPollMilliseconds);
     }
     if (process.state() == State::kAnswered) return evaluation_result(process.take_answer());
     // A signal from the terminal reaches both: this process has noted it, the other has ended.

@@ -20,7 +20,6 @@ using State = WorkerProcess::State;
 using Status = EvaluationResult::Status;
 
 constexpr unsigned kMostProcesses = 8;
-constexpr int kAskEvery = 100;  // ms
 // So many variants may be done before one that takes long: what is kept until then is bounded.
 constexpr std::size_t kAheadOfEach = 16;
 
@@ -90,7 +89,7 @@ class Round {
     std::vector<pollfd> waiting;
     for (const auto& process : processes_)
       waiting.push_back({process->state() == State::kWorking ? process->descriptor() : -1, POLLIN, 0});
-    if (::poll(waiting.data(), waiting.size(), kAskEvery) <= 0) return;
+    if (::poll(waiting.data(), waiting.size(), WorkerProcess::kPollMilliseconds) <= 0) return;
     for (std::size_t i = 0; i < processes_.size(); ++i) {
       if (waiting[i].revents == 0) continue;
       WorkerProcess& process = *processes_[i];

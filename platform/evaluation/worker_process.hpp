@@ -22,6 +22,9 @@ class WorkerProcess {
     kDied,      ///< by signal(), or by itself
   };
 
+  /// How long a caller waits for an answer before it asks whether it was interrupted.
+  static constexpr int kPollMilliseconds = 100;
+
   /// `work` answers a request, in the copy; it must not throw. Throws std::system_error when no process can
   /// be made.
   explicit WorkerProcess(const Work& work);

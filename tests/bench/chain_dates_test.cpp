@@ -10,7 +10,7 @@
 #include "tests/timing/reference_simulation.hpp"
 
 namespace parallax::bench {
-namespace {
+namespace chain_dates_test {
 
 using test::Graph;
 
@@ -62,5 +62,5 @@ TEST(ChainDates, ScFifoIsEarly) {
   }
 }
 
-}  // namespace
+}  // namespace chain_dates_test
 }  // namespace parallax::bench

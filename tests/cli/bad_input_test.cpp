@@ -12,7 +12,7 @@
 #include "tests/platform/unprivileged.hpp"
 
 namespace parallax {
-namespace {
+namespace bad_input_test {
 
 namespace fs = std::filesystem;
 
@@ -384,5 +384,5 @@ TEST_F(BadInput, ExhaustedMemoryIsOneLineToo) {
   EXPECT_EQ(outcome.err, "parallax: internal error: out of memory\n");
 }
 
-}  // namespace
+}  // namespace bad_input_test
 }  // namespace parallax

@@ -10,7 +10,7 @@
 #include "tests/cli/program.hpp"
 
 namespace parallax {
-namespace {
+namespace compare_runs_test {
 
 using nlohmann::json;
 
@@ -125,5 +125,5 @@ TEST_F(CompareRuns, RefusesWhatIsNoRun) {
             "parallax: error: less/timing.json: damaged, it has no stages; run parallax again\n");
 }
 
-}  // namespace
+}  // namespace compare_runs_test
 }  // namespace parallax

@@ -15,7 +15,7 @@
 #include "tests/platform/temporary_folder.hpp"
 
 namespace parallax::test {
-namespace {
+namespace documents_test {
 
 namespace fs = std::filesystem;
 
@@ -144,5 +144,5 @@ TEST(Documents, TheReadmeLeadsToEveryPage) {
   }
 }
 
-}  // namespace
+}  // namespace documents_test
 }  // namespace parallax::test

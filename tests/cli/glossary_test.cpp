@@ -15,7 +15,7 @@
 #include "traces/metrics.hpp"
 
 namespace parallax::test {
-namespace {
+namespace glossary_test {
 
 using Json = nlohmann::ordered_json;
 
@@ -117,5 +117,5 @@ TEST_F(Glossary, IsTextForAPerson) {
   EXPECT_EQ(program_("glossary --markdown --json").code, 2);
 }
 
-}  // namespace
+}  // namespace glossary_test
 }  // namespace parallax::test

@@ -13,7 +13,7 @@
 #include "tests/paths.hpp"
 
 namespace parallax {
-namespace {
+namespace interruption_test {
 
 /// Waits until the file is there, at most a minute.
 bool appears(const std::filesystem::path& file) {
@@ -99,5 +99,5 @@ TEST(Progress, IsShownOnATerminalOnly) {
   EXPECT_EQ(piped.out.find('\r'), std::string::npos);
 }
 
-}  // namespace
+}  // namespace interruption_test
 }  // namespace parallax

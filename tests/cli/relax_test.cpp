@@ -9,7 +9,7 @@
 #include "tests/platform/temporary_folder.hpp"
 
 namespace parallax::test {
-namespace {
+namespace relax_test {
 
 class Relax : public testing::Test {
  protected:
@@ -146,5 +146,5 @@ TEST_F(Verdict, AndTheSummaryFitsAScreen) {
   EXPECT_NE(outcome.out.find("\nverdict             "), std::string::npos) << outcome.out;
 }
 
-}  // namespace
+}  // namespace relax_test
 }  // namespace parallax::test

@@ -18,7 +18,7 @@
 #include "tests/paths.hpp"
 
 namespace parallax {
-namespace {
+namespace run_chain_test {
 
 struct Case {
   std::string name;
@@ -166,5 +166,5 @@ std::vector<Case> cases() {
 INSTANTIATE_TEST_SUITE_P(On, RunChain, ::testing::ValuesIn(cases()),
                          [](const auto& chosen) { return chosen.param.name; });
 
-}  // namespace
+}  // namespace run_chain_test
 }  // namespace parallax

@@ -14,7 +14,7 @@
 #include "tests/cli/program.hpp"
 
 namespace parallax {
-namespace {
+namespace run_results_test {
 
 using nlohmann::json;
 
@@ -315,5 +315,5 @@ TEST_F(RunResults, OtherCommandsAreQuietToo) {
   EXPECT_TRUE(json::parse(program_("map info a.map --json --quiet").out).is_object());
 }
 
-}  // namespace
+}  // namespace run_results_test
 }  // namespace parallax

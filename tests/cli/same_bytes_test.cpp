@@ -10,7 +10,7 @@
 #include "tests/cli/program.hpp"
 
 namespace parallax {
-namespace {
+namespace same_bytes_test {
 
 // What a run writes, file by file. Of timing.json, three numbers that measure this computer stay out.
 std::map<std::string, std::string> results(const std::function<void()>& prepare) {
@@ -50,5 +50,5 @@ TEST(SameBytes, InAnotherEnvironment) {
             }));
 }
 
-}  // namespace
+}  // namespace same_bytes_test
 }  // namespace parallax

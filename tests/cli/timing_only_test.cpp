@@ -9,7 +9,7 @@
 #include "tests/paths.hpp"
 
 namespace parallax {
-namespace {
+namespace timing_only_test {
 
 using nlohmann::json;
 
@@ -115,5 +115,5 @@ TEST_F(TimingOnly, TakesLessThan150MegabytesAtTheLargestSize) {
   EXPECT_LT(run("--timing-only --size 1720x1850 -d 256")["run"]["peak_memory"]["value"], 150.0);
 }
 
-}  // namespace
+}  // namespace timing_only_test
 }  // namespace parallax

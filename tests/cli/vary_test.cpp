@@ -11,7 +11,7 @@
 #include "tests/cli/program.hpp"
 
 namespace parallax {
-namespace {
+namespace vary_test {
 
 using nlohmann::json;
 
@@ -185,5 +185,5 @@ TEST_P(VaryInterrupted, LeavesTheFinishedPointsWhole) {
 
 INSTANTIATE_TEST_SUITE_P(By, VaryInterrupted, ::testing::Values(SIGINT, SIGTERM));
 
-}  // namespace
+}  // namespace vary_test
 }  // namespace parallax

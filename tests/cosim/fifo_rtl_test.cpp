@@ -8,7 +8,7 @@
 #include "tests/cosim/rtl_bench.hpp"
 
 namespace parallax::test {
-namespace {
+namespace fifo_rtl_test {
 
 constexpr std::size_t kTokens = 300;
 constexpr std::uint32_t kSeeds = 6;
@@ -77,5 +77,5 @@ TEST(FifoRtl, EveryDateBetweenTwoClocks) {
   }
 }
 
-}  // namespace
+}  // namespace fifo_rtl_test
 }  // namespace parallax::test

@@ -14,7 +14,7 @@
 #include "tests/cosim/rtl_bench.hpp"
 
 namespace parallax::test {
-namespace {
+namespace graph_rtl_test {
 
 constexpr std::size_t kTokens = 300;
 // The window writes its first token when it has read two rows of 12 and one more; what the fork wrote with
@@ -162,5 +162,5 @@ TEST(GraphRtl, TheChainOfTheBenchmark) {
   EXPECT_EQ(chain8<Chain8Depth64>(64), "");
 }
 
-}  // namespace
+}  // namespace graph_rtl_test
 }  // namespace parallax::test

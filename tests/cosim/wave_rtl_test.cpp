@@ -18,7 +18,7 @@
 #include "traces/vcd_trace.hpp"
 
 namespace parallax::test {
-namespace {
+namespace wave_rtl_test {
 
 constexpr std::int64_t kPeriod = 1000;  // ps
 
@@ -139,5 +139,5 @@ TEST(WaveRtl, HandshakesOfModelAndCircuitAreInTheSameCycles) {
   EXPECT_EQ(handshakes, 2u * (bench::kStages + 1) * load().tokens());
 }
 
-}  // namespace
+}  // namespace wave_rtl_test
 }  // namespace parallax::test

@@ -8,7 +8,7 @@
 #include "tests/example/slow_copy.hpp"
 
 namespace parallax::test {
-namespace {
+namespace example_test {
 
 // A row's values enter with its first token, or one by one.
 enum class Sending { kRows, kTokens };
@@ -122,5 +122,5 @@ TEST(Example, AValueThatIsReadBeforeItsRowIsCompleteIsReported) {
   }
 }
 
-}  // namespace
+}  // namespace example_test
 }  // namespace parallax::test

@@ -8,7 +8,7 @@
 #include "tests/example/machine_run.hpp"
 
 namespace parallax::test {
-namespace {
+namespace own_filter_test {
 
 TEST(OwnFilter, RunsInTheMachineAtFullRate) {
   const MachineConfig config = small_machine();
@@ -58,5 +58,5 @@ TEST(OwnFilter, IsCopiedWithTheConfigurationThatItIsAPartOf) {
   EXPECT_EQ(config.filters.all().back()->timing(config).latency, 1u);
 }
 
-}  // namespace
+}  // namespace own_filter_test
 }  // namespace parallax::test

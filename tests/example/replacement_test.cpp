@@ -6,7 +6,7 @@
 #include "tests/example/machine_run.hpp"
 
 namespace parallax::test {
-namespace {
+namespace replacement_test {
 
 TEST(Replacement, AVariantOfAStageGivesTheSameValuesLater) {
   const MachineConfig config = small_machine();
@@ -53,5 +53,5 @@ TEST(Replacement, WhatHasNoSlotOrNotItsPortsIsReported) {
             "what stands in the slot subpixel has no port in_costs for the tokens there");
 }
 
-}  // namespace
+}  // namespace replacement_test
 }  // namespace parallax::test

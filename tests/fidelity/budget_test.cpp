@@ -6,7 +6,7 @@
 #include "tests/timing/machine_bench.hpp"
 
 namespace parallax::test {
-namespace {
+namespace budget_test {
 
 // Frames a second that the host receives, once the machine is full.
 double frame_rate(const std::vector<std::string>& assignments) {
@@ -43,5 +43,5 @@ TEST(Budget, Disparities256) {
   EXPECT_GE(fps * 640 * 480 * 256, 5.1e9);
 }
 
-}  // namespace
+}  // namespace budget_test
 }  // namespace parallax::test

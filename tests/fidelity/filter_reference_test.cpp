@@ -10,7 +10,7 @@
 #include "tests/modules/naive_texture.hpp"
 
 namespace parallax::test {
-namespace {
+namespace filter_reference_test {
 
 TEST(FilterReference, RealDisparities) {
   const auto scene = aloe_scene();
@@ -43,5 +43,5 @@ TEST(FilterReference, RealDisparities) {
   expect_equal(actual, expected);
 }
 
-}  // namespace
+}  // namespace filter_reference_test
 }  // namespace parallax::test

@@ -6,7 +6,7 @@
 #include "tests/fidelity/stereo_scene.hpp"
 
 namespace parallax::test {
-namespace {
+namespace left_border_test {
 
 TEST(LeftBorder, OnlyMatchesInTheRightImageRemain) {
   const auto scene = shared_scene("cloth3", 128);
@@ -41,5 +41,5 @@ TEST(LeftBorder, OnlyMatchesInTheRightImageRemain) {
   EXPECT_LT(guessed, 0.05 * out_of_view);
 }
 
-}  // namespace
+}  // namespace left_border_test
 }  // namespace parallax::test

@@ -9,7 +9,7 @@
 #include "tests/paths.hpp"
 
 namespace parallax::test {
-namespace {
+namespace program_quality_test {
 
 struct Figures {
   int scored = 0;
@@ -72,5 +72,5 @@ TEST_P(ProgramQuality, FiguresEqualAnIndependentEvaluation) {
 INSTANTIATE_TEST_SUITE_P(Scenes, ProgramQuality,
                          ::testing::Values("tsukuba", "cones", "cloth3", "kitti2012_000000"));
 
-}  // namespace
+}  // namespace program_quality_test
 }  // namespace parallax::test

@@ -10,7 +10,7 @@
 #include "tests/platform/test_calibrations.hpp"
 
 namespace parallax::test {
-namespace {
+namespace program_rectification_test {
 
 /// The left image as cv::remap makes it, and where it does not look outside of its source.
 struct Reference {
@@ -95,5 +95,5 @@ TEST(ProgramRectification, Fisheye) {
                    "--set rectification.window=255");
 }
 
-}  // namespace
+}  // namespace program_rectification_test
 }  // namespace parallax::test

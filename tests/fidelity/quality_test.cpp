@@ -11,7 +11,7 @@
 #include "tests/fidelity/stereo_scene.hpp"
 
 namespace parallax::test {
-namespace {
+namespace quality_test {
 
 constexpr double kBadMargin = 0.0;       ///< bad-2.0 may be this much above StereoSGBM's, percentage points
 constexpr double kCoverageMargin = 8.0;  ///< coverage may be this much below, percentage points
@@ -159,5 +159,5 @@ TEST(Quality, EachFilterDoesItsPart) {
   EXPECT_LT(smooth.mean_error(), filled.mean_error());
 }
 
-}  // namespace
+}  // namespace quality_test
 }  // namespace parallax::test

@@ -11,7 +11,7 @@
 #include "tests/modules/user_error.hpp"
 
 namespace parallax {
-namespace {
+namespace census_test {
 
 using test::complaint;
 using test::Grid;
@@ -106,5 +106,5 @@ TEST(census, bad_configuration) {
   EXPECT_THROW(Census(config, 8, 8), UserError);
 }
 
-}  // namespace
+}  // namespace census_test
 }  // namespace parallax

@@ -10,7 +10,7 @@
 #include "tests/modules/user_error.hpp"
 
 namespace parallax {
-namespace {
+namespace consistency_test {
 
 using test::complaint;
 using test::Grid;
@@ -90,5 +90,5 @@ TEST(consistency, bad_configuration) {
   EXPECT_EQ(complaint(config), "consistency.threshold = 16: must be within 0..15 px");
 }
 
-}  // namespace
+}  // namespace consistency_test
 }  // namespace parallax

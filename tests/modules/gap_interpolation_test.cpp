@@ -9,7 +9,7 @@
 #include "tests/modules/user_error.hpp"
 
 namespace parallax::test {
-namespace {
+namespace gap_interpolation_test {
 
 constexpr Disparity kGap = {kInvalidDisparity, Cause::kConsistency};
 constexpr Disparity kMasked = {kInvalidDisparity, Cause::kBorder};
@@ -161,5 +161,5 @@ TEST(GapInterpolation, SaysWhatIsWrongWithItsConfiguration) {
   EXPECT_EQ(complaint(config), "gap_interpolation.max_difference = -1: must be within 0..4094");
 }
 
-}  // namespace
+}  // namespace gap_interpolation_test
 }  // namespace parallax::test

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 namespace parallax {
-namespace {
+namespace kept_rows_test {
 
 using Row = std::vector<std::uint8_t>;
 
@@ -36,5 +36,5 @@ TEST(KeptRows, OthersAreNotTheSame) {
   EXPECT_FALSE(come_back(rows, {1}));
 }
 
-}  // namespace
+}  // namespace kept_rows_test
 }  // namespace parallax

@@ -15,7 +15,7 @@
 #include "tlm/error.hpp"
 
 namespace parallax {
-namespace {
+namespace map_codec_test {
 
 void expect_lossless(const RectificationMap& map) {
   const EncodedMap encoded = encode(map);
@@ -154,5 +154,5 @@ TEST(MapEncoder, GivesAMapAfterItsLastRowOnly) {
   EXPECT_THROW(MapEncoder(0, 2, {}), std::invalid_argument);
 }
 
-}  // namespace
+}  // namespace map_codec_test
 }  // namespace parallax

@@ -15,7 +15,7 @@
 #include "tlm/error.hpp"
 
 namespace parallax {
-namespace {
+namespace map_decoder_test {
 
 // Decodes frame after frame from one continuous stream, as the hardware does, and compares with the
 // reference.
@@ -130,5 +130,5 @@ RC_GTEST_PROP(MapDecoder, SurvivesArbitraryBytes, (const std::vector<std::uint8_
   }
 }
 
-}  // namespace
+}  // namespace map_decoder_test
 }  // namespace parallax

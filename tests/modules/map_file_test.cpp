@@ -11,7 +11,7 @@
 #include "tlm/error.hpp"
 
 namespace parallax {
-namespace {
+namespace map_file_test {
 
 std::string message(const std::function<void()>& run) {
   try {
@@ -127,5 +127,5 @@ TEST(MapFile, AnotherWritersMistakesAreNamed) {
             std::string::npos);
 }
 
-}  // namespace
+}  // namespace map_file_test
 }  // namespace parallax

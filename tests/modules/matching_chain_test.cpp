@@ -15,7 +15,7 @@
 #include "tests/modules/real_pair.hpp"
 
 namespace parallax {
-namespace {
+namespace matching_chain_test {
 
 using test::ChainConfig;
 using test::Grid;
@@ -148,5 +148,5 @@ TEST_P(RealPair, is_not_worse_than_opencv) {
 INSTANTIATE_TEST_SUITE_P(matching_chain, RealPair,
                          ::testing::Values("tsukuba", "cones", "cloth3", "aloe_half", "aloe_third"));
 
-}  // namespace
+}  // namespace matching_chain_test
 }  // namespace parallax

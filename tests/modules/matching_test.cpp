@@ -9,7 +9,7 @@
 #include "tests/modules/user_error.hpp"
 
 namespace parallax {
-namespace {
+namespace matching_test {
 
 using test::complaint;
 using test::Grid;
@@ -182,5 +182,5 @@ TEST(matching, bad_configuration) {
             "matching.paths = 0x100: must name one to eight of w, nw, n, ne, e, sw, s, se");
 }
 
-}  // namespace
+}  // namespace matching_test
 }  // namespace parallax

@@ -9,7 +9,7 @@
 #include "tests/modules/user_error.hpp"
 
 namespace parallax::test {
-namespace {
+namespace noise_reduction_test {
 
 TEST(NoiseReduction, EqualsTheDefinition) {
   for (const auto kind : {NoiseReductionKind::kMean, NoiseReductionKind::kMedian}) {
@@ -117,5 +117,5 @@ TEST(NoiseReduction, SaysWhatIsWrongWithItsConfiguration) {
   EXPECT_EQ(complaint(config), "noise_reduction.max_difference = 5000: must be within 0..4094");
 }
 
-}  // namespace
+}  // namespace noise_reduction_test
 }  // namespace parallax::test

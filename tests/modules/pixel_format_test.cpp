@@ -10,7 +10,7 @@
 #include "tlm/clock_domain.hpp"
 
 namespace parallax::test {
-namespace {
+namespace pixel_format_test {
 
 constexpr PixelFormat kAll[] = {PixelFormat::kMono8, PixelFormat::kMono12Packed, PixelFormat::kMono12,
                                 PixelFormat::kRgb8, PixelFormat::kBayer8};
@@ -118,5 +118,5 @@ TEST(PixelUnpackStage, ReadsABurstWithThePixelThatEndsInIt) {
   }
 }
 
-}  // namespace
+}  // namespace pixel_format_test
 }  // namespace parallax::test

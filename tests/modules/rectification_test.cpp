@@ -16,7 +16,7 @@
 #include "tlm/error.hpp"
 
 namespace parallax {
-namespace {
+namespace rectification_test {
 
 using Image = std::vector<Gray>;
 
@@ -151,5 +151,5 @@ TEST(Rectification, RefusesAnOffsetBeyondTheWindow) {
   EXPECT_THROW(Rectification(config, 4, 4), UserError);
 }
 
-}  // namespace
+}  // namespace rectification_test
 }  // namespace parallax

@@ -9,7 +9,7 @@
 #include "tests/modules/user_error.hpp"
 
 namespace parallax::test {
-namespace {
+namespace speckle_test {
 
 TEST(Speckle, EqualsTheDefinition) {
   for (const int iterations : {0, 1, 2, 4}) {
@@ -125,5 +125,5 @@ TEST(Speckle, SaysWhatIsWrongWithItsConfiguration) {
   EXPECT_EQ(complaint(config), "speckle.max_difference = 4095: must be within 0..4094");
 }
 
-}  // namespace
+}  // namespace speckle_test
 }  // namespace parallax::test

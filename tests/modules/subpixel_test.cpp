@@ -9,7 +9,7 @@
 #include "tests/modules/user_error.hpp"
 
 namespace parallax {
-namespace {
+namespace subpixel_test {
 
 using test::complaint;
 using test::Grid;
@@ -130,5 +130,5 @@ TEST(subpixel, bad_configuration) {
   EXPECT_EQ(complaint(config), "subpixel.border_height = 32: must be within 0..31");
 }
 
-}  // namespace
+}  // namespace subpixel_test
 }  // namespace parallax

@@ -12,7 +12,7 @@
 #include "tests/paths.hpp"
 
 namespace parallax::test {
-namespace {
+namespace texture_test {
 
 using GrayImage = Image<Gray>;
 
@@ -195,5 +195,5 @@ TEST(Texture, SaysWhatIsWrongWithItsConfiguration) {
   }
 }
 
-}  // namespace
+}  // namespace texture_test
 }  // namespace parallax::test

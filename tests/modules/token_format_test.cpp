@@ -10,7 +10,7 @@
 #include "modules/token_formats.hpp"
 
 namespace parallax {
-namespace {
+namespace token_format_test {
 
 TEST(BitVector, KeepsFieldsApartOverWords) {
   BitVector bits(200);
@@ -128,5 +128,5 @@ TEST(BitPacker, LaysFieldsOutAsAFormatDoes) {
   EXPECT_TRUE(packer.take().empty());
 }
 
-}  // namespace
+}  // namespace token_format_test
 }  // namespace parallax

@@ -10,7 +10,7 @@
 #include "tests/modules/user_error.hpp"
 
 namespace parallax {
-namespace {
+namespace uniqueness_test {
 
 using test::complaint;
 using test::Grid;
@@ -96,5 +96,5 @@ TEST(uniqueness, bad_configuration) {
   EXPECT_EQ(complaint(config), "uniqueness.factor = 4097: must be within 256..4096 (1/256 steps, 1 to 16)");
 }
 
-}  // namespace
+}  // namespace uniqueness_test
 }  // namespace parallax

@@ -9,13 +9,13 @@
 #include "tests/platform/test_calibrations.hpp"
 
 namespace parallax {
-namespace {
+namespace calibration_test {
 
 using test::message;
 using test::SyntheticPair;
 using test::with_entry;
 
-class CalibrationTest : public test::TemporaryFolder {
+class CalibrationTest : public test::FolderTest {
  protected:
   // The line for a calibration in which one entry has been replaced, without the file name.
   std::string changed(const std::string& name, const std::string& line,
@@ -182,5 +182,5 @@ TEST_F(CalibrationTest, TheImagesMustHaveItsSize) {
             path("c.yml") + ": the calibration is for images of 640x480, these have 752x480");
 }
 
-}  // namespace
+}  // namespace calibration_test
 }  // namespace parallax

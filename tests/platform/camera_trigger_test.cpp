@@ -6,7 +6,7 @@
 #include <algorithm>
 
 namespace parallax {
-namespace {
+namespace camera_trigger_test {
 
 TEST(CameraTrigger, DoesNotDriftOverAMillionFrames) {
   CameraConfig config;
@@ -39,5 +39,5 @@ TEST(CameraTrigger, JitterDelaysUpToItsBoundAndFollowsTheSeed) {
   EXPECT_GT(different, 500);
 }
 
-}  // namespace
+}  // namespace camera_trigger_test
 }  // namespace parallax

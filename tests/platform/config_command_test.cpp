@@ -11,7 +11,7 @@
 #include "tests/platform/temporary_folder.hpp"
 
 namespace parallax {
-namespace {
+namespace config_command_test {
 
 struct Outcome {
   int code;
@@ -138,5 +138,5 @@ TEST_F(ConfigCommand, TheProgramReportsAFullDiskBehindStandardOutput) {
   EXPECT_EQ(folder.read("err"), "parallax: error: cannot write to standard output\n");
 }
 
-}  // namespace
+}  // namespace config_command_test
 }  // namespace parallax

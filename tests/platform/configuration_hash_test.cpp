@@ -13,7 +13,7 @@
 #include "tests/platform/temporary_folder.hpp"
 
 namespace parallax {
-namespace {
+namespace configuration_hash_test {
 
 const std::filesystem::path kShipped = test::source_path("platform/presets");
 
@@ -87,5 +87,5 @@ TEST(ConfigurationHash, IsAnotherWhenAnyKeyIsAnother) {
   EXPECT_EQ(hashes.size(), schema.keys().size() + 1);
 }
 
-}  // namespace
+}  // namespace configuration_hash_test
 }  // namespace parallax

@@ -13,7 +13,7 @@
 #include "tests/platform/temporary_folder.hpp"
 
 namespace parallax {
-namespace {
+namespace configuration_test {
 
 const std::filesystem::path kShipped = test::source_path("platform/presets");
 
@@ -218,5 +218,5 @@ TEST(StreamConfig, AKindOfItsOwnWinsOverTheDefault) {
   EXPECT_THROW(streams.kind("c"), std::logic_error);
 }
 
-}  // namespace
+}  // namespace configuration_test
 }  // namespace parallax

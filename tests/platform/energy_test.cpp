@@ -14,7 +14,7 @@
 #include "tests/cli/program.hpp"
 
 namespace parallax {
-namespace {
+namespace energy_test {
 
 double joules(const EnergyEstimate& estimate, const std::string& name) {
   const auto found = std::find_if(estimate.parts.begin(), estimate.parts.end(),
@@ -284,5 +284,5 @@ TEST_F(EnergyReport, PricesOutOfRangeAreRefused) {
   EXPECT_NE(error("energy.link_w=-1").find("energy.link_w"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace energy_test
 }  // namespace parallax

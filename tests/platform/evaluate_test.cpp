@@ -13,7 +13,7 @@
 #include "tests/timing/machine_bench.hpp"
 
 namespace parallax::test {
-namespace {
+namespace evaluate_test {
 
 using Status = EvaluationResult::Status;
 
@@ -163,5 +163,5 @@ TEST(EvaluationResult, StatusesHaveNames) {
   EXPECT_STREQ(name(Status::kInterrupted), "interrupted");
 }
 
-}  // namespace
+}  // namespace evaluate_test
 }  // namespace parallax::test

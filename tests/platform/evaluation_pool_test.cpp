@@ -14,7 +14,7 @@
 #include "tlm/error.hpp"
 
 namespace parallax::test {
-namespace {
+namespace evaluation_pool_test {
 
 using Status = EvaluationResult::Status;
 
@@ -161,5 +161,5 @@ TEST_F(Pool, ServesAProcessThatHasSimulated) {
   EXPECT_TRUE(evaluate_all(pool, {{}}).front().done());
 }
 
-}  // namespace
+}  // namespace evaluation_pool_test
 }  // namespace parallax::test

@@ -12,7 +12,7 @@
 #include "tlm/error.hpp"
 
 namespace parallax {
-namespace {
+namespace ground_truth_test {
 
 namespace fs = std::filesystem;
 
@@ -169,5 +169,5 @@ TEST(GroundTruthScore, RejectsAnotherSize) {
   }
 }
 
-}  // namespace
+}  // namespace ground_truth_test
 }  // namespace parallax

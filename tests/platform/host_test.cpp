@@ -9,7 +9,7 @@
 #include <vector>
 
 namespace parallax::test {
-namespace {
+namespace host_test {
 
 constexpr int kHeight = 2;
 
@@ -99,5 +99,5 @@ TEST_F(HostCheck, AFrameWithoutValuesIsDeliveredEmpty) {
   EXPECT_TRUE(finished_);
 }
 
-}  // namespace
+}  // namespace host_test
 }  // namespace parallax::test

@@ -16,7 +16,7 @@
 #include "tlm/error.hpp"
 
 namespace parallax {
-namespace {
+namespace image_input_test {
 
 namespace fs = std::filesystem;
 
@@ -390,5 +390,5 @@ TEST(ImagePadding, Notice) {
             "results are cropped back");
 }
 
-}  // namespace
+}  // namespace image_input_test
 }  // namespace parallax

@@ -9,7 +9,7 @@
 #include "platform/results/result_images.hpp"
 
 namespace parallax {
-namespace {
+namespace legend_test {
 
 const cv::Vec3b kWhite(255, 255, 255);
 const cv::Vec3b kBlack(0, 0, 0);
@@ -150,5 +150,5 @@ TEST(SideBySide, BothPicturesCaptionsAndLegend) {
   }
 }
 
-}  // namespace
+}  // namespace legend_test
 }  // namespace parallax

@@ -14,7 +14,7 @@
 #include "tests/cli/program.hpp"
 
 namespace parallax {
-namespace {
+namespace limits_test {
 
 class Limits : public ::testing::Test {
  protected:
@@ -194,5 +194,5 @@ TEST(FindLimit, NoneWhenAllHaveTimeToSpare) {
   EXPECT_EQ(verdict.busiest.part, &b);
 }
 
-}  // namespace
+}  // namespace limits_test
 }  // namespace parallax

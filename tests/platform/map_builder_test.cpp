@@ -17,12 +17,12 @@
 #include "tests/platform/test_calibrations.hpp"
 
 namespace parallax {
-namespace {
+namespace map_builder_test {
 
 using test::message;
 using test::SyntheticPair;
 
-class MapBuilder : public test::TemporaryFolder {
+class MapBuilder : public test::FolderTest {
  protected:
   Calibration calibration(const SyntheticPair& pair) const {
     return read_calibration({write("c.yml", pair.text())});
@@ -324,5 +324,5 @@ TEST(RealCalibrationDefault, TheEurocRectificationIsBeyondTheWindow) {
   EXPECT_NE(line.find("or --fit: zoom 0.85"), std::string::npos) << line;
 }
 
-}  // namespace
+}  // namespace map_builder_test
 }  // namespace parallax

@@ -17,12 +17,12 @@
 #include "tests/platform/test_calibrations.hpp"
 
 namespace parallax {
-namespace {
+namespace map_command_test {
 
 using test::message;
 using test::SyntheticPair;
 
-class MapCommand : public test::TemporaryFolder {
+class MapCommand : public test::FolderTest {
  protected:
   // What the command prints.
   static std::string run(std::vector<std::string> arguments) {
@@ -41,7 +41,7 @@ class MapCommand : public test::TemporaryFolder {
   }
 
   std::size_t files() const {
-    return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder_), {}));
+    return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder_.path()), {}));
   }
 };
 
@@ -173,5 +173,5 @@ TEST_F(MapCommand, BadRawMapsAreNamed) {
             path("a.bmp") + ": raw maps are written as .yml, .yaml, .xml, .json, .tif or .tiff");
 }
 
-}  // namespace
+}  // namespace map_command_test
 }  // namespace parallax

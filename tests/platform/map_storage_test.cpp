@@ -9,14 +9,14 @@
 #include "tests/platform/test_calibrations.hpp"
 
 namespace parallax {
-namespace {
+namespace map_storage_test {
 
 using test::message;
 
-class MapStorage : public test::TemporaryFolder {
+class MapStorage : public test::FolderTest {
  protected:
   std::size_t files() const {
-    return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder_), {}));
+    return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder_.path()), {}));
   }
 };
 
@@ -38,11 +38,11 @@ TEST_F(MapStorage, UnreadableAndUnwritableNamesTheFile) {
   const EncodedMap map = encode(identity_map(4, 4));
   EXPECT_EQ(message([&] { write_map_file(path("no/such/folder/a.map"), map); }),
             "cannot write " + path("no/such/folder/a.map") + ": No such file or directory");
-  EXPECT_EQ(message([&] { write_map_file(folder_.string(), map); }),
-            "cannot write " + folder_.string() + ": Is a directory");
-  EXPECT_NE(message([&] { read_map_file(folder_.string()); }), "");
+  EXPECT_EQ(message([&] { write_map_file(folder_.path().string(), map); }),
+            "cannot write " + folder_.path().string() + ": Is a directory");
+  EXPECT_NE(message([&] { read_map_file(folder_.path().string()); }), "");
   EXPECT_EQ(files(), 0U);
 }
 
-}  // namespace
+}  // namespace map_storage_test
 }  // namespace parallax

@@ -19,7 +19,7 @@
 #include "tlm/error.hpp"
 
 namespace parallax {
-namespace {
+namespace memory_command_test {
 
 struct Outcome {
   int code;
@@ -198,5 +198,5 @@ TEST(MemoryReference, BandwidthLatencyAndRowHits) {
   EXPECT_GE(rows, 1);
 }
 
-}  // namespace
+}  // namespace memory_command_test
 }  // namespace parallax

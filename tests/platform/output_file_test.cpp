@@ -14,7 +14,7 @@
 #include "tlm/error.hpp"
 
 namespace parallax {
-namespace {
+namespace output_file_test {
 
 using Bytes = std::vector<std::uint8_t>;
 
@@ -87,5 +87,5 @@ TEST(OutputFile, UnwritableTargetsAreUserErrors) {
             "cannot write " + (folder / "file/a.bin") + ": Not a directory");
 }
 
-}  // namespace
+}  // namespace output_file_test
 }  // namespace parallax

@@ -12,7 +12,7 @@
 #include "tests/platform/unprivileged.hpp"
 
 namespace parallax {
-namespace {
+namespace output_folder_test {
 
 namespace fs = std::filesystem;
 
@@ -183,5 +183,5 @@ TEST(OutputFolder, PublishesNothingOnAFullDisk) {
   ::umount(temporary.path().c_str());
 }
 
-}  // namespace
+}  // namespace output_folder_test
 }  // namespace parallax

@@ -12,7 +12,7 @@
 #include "tests/platform/unprivileged.hpp"
 
 namespace parallax {
-namespace {
+namespace preset_test {
 
 class PresetTest : public ::testing::Test {
  protected:
@@ -183,5 +183,5 @@ TEST(Assignment, NamesTheArgumentThatIsNone) {
   EXPECT_EQ(error_of([] { read_assignment("a="); }), "--set a=: the value is empty");
 }
 
-}  // namespace
+}  // namespace preset_test
 }  // namespace parallax

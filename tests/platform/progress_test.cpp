@@ -7,7 +7,7 @@
 #include <sstream>
 
 namespace parallax {
-namespace {
+namespace progress_test {
 
 using std::chrono::seconds;
 
@@ -49,5 +49,5 @@ TEST(Progress, DrawsAtMostTenTimesASecondAndWipesTheLine) {
   EXPECT_EQ(text.substr(text.size() - 4), "\r\033[K");
 }
 
-}  // namespace
+}  // namespace progress_test
 }  // namespace parallax

@@ -10,7 +10,7 @@
 #include "tests/platform/temporary_folder.hpp"
 
 namespace parallax::test {
-namespace {
+namespace registers_command_test {
 
 TEST(RegistersCommand, TheCheckedInTableIsWhatItPrints) {
   const Outcome outcome = Program()("registers --markdown");
@@ -66,5 +66,5 @@ TEST(RegisterMap, OffsetsAreThoseOfThePublishedOrder) {
   EXPECT_EQ(register_blocks()[1].registers.back().offset, 0x28u);
 }
 
-}  // namespace
+}  // namespace registers_command_test
 }  // namespace parallax::test

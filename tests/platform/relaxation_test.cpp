@@ -14,7 +14,7 @@
 #include "tests/timing/machine_bench.hpp"
 
 namespace parallax::test {
-namespace {
+namespace relaxation_test {
 
 /// By a part's name, the names of what relieves it.
 std::map<std::string, std::string> reliefs(const std::vector<std::string>& assignments) {
@@ -79,5 +79,5 @@ TEST(Relaxation, NamesAreDifferent) {
   EXPECT_EQ(names.count(""), 0u);
 }
 
-}  // namespace
+}  // namespace relaxation_test
 }  // namespace parallax::test

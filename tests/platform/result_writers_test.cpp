@@ -18,7 +18,7 @@
 #include "tlm/error.hpp"
 
 namespace parallax {
-namespace {
+namespace result_writers_test {
 
 using test::random_map;
 
@@ -295,5 +295,5 @@ TEST(PointCloud, NoValidPixelIsAnEmptyCloud) {
                std::invalid_argument);
 }
 
-}  // namespace
+}  // namespace result_writers_test
 }  // namespace parallax

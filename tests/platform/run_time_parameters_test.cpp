@@ -12,7 +12,7 @@
 #include "platform/registers/register_word.hpp"
 
 namespace parallax::test {
-namespace {
+namespace run_time_parameters_test {
 
 /// What a row's key is bound to, with its range; a boolean is 0 or 1.
 struct BoundKey {
@@ -117,5 +117,5 @@ TEST(RegisterWord, ARegisterThatDoesNotExistIsAnError) {
   EXPECT_THROW(find_register("none", "status"), std::logic_error);
 }
 
-}  // namespace
+}  // namespace run_time_parameters_test
 }  // namespace parallax::test

@@ -13,7 +13,7 @@
 #include "tlm/error.hpp"
 
 namespace parallax {
-namespace {
+namespace scene_calibration_test {
 
 TEST(SceneCalibration, CalibrationIsConsistentInOpenCvConventions) {
   const SceneCalibration c = scene_calibration(SceneConfig{});
@@ -107,5 +107,5 @@ TEST(SceneConfig, RejectsWhatIsOutOfRange) {
   EXPECT_EQ(message([](SceneConfig& c) { c.motion = 3; }), "scene.motion is 3, allowed is 0 to 2");
 }
 
-}  // namespace
+}  // namespace scene_calibration_test
 }  // namespace parallax

@@ -16,7 +16,7 @@
 #include "tlm/error.hpp"
 
 namespace parallax {
-namespace {
+namespace scene_command_test {
 
 int run(const std::string& arguments) {
   CLI::App app;
@@ -80,5 +80,5 @@ TEST(SceneCommand, Errors) {
             "cannot make the output folder /dev/null/x: /dev/null is a file");
 }
 
-}  // namespace
+}  // namespace scene_command_test
 }  // namespace parallax

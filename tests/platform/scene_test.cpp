@@ -16,7 +16,7 @@
 #include "platform/scene/scene_hash.hpp"
 
 namespace parallax {
-namespace {
+namespace scene_test {
 
 SceneConfig quiet(int width, int height) {
   SceneConfig config;
@@ -361,5 +361,5 @@ TEST(Scene, VignettingDarkensTheCorners) {
   EXPECT_NEAR(after / before, 0.6, 0.05);
 }
 
-}  // namespace
+}  // namespace scene_test
 }  // namespace parallax

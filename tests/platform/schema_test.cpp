@@ -10,7 +10,7 @@
 #include "tests/platform/error_of.hpp"
 
 namespace parallax {
-namespace {
+namespace schema_test {
 
 enum class Shape { kRound, kSquare };
 
@@ -165,5 +165,5 @@ TEST(NearestName, CountsSwappedNeighboursAsOneSlip) {
   EXPECT_EQ(nearest_name("anything", {}), "");
 }
 
-}  // namespace
+}  // namespace schema_test
 }  // namespace parallax

@@ -13,7 +13,7 @@
 #include "tests/cli/program.hpp"
 
 namespace parallax {
-namespace {
+namespace stage_time_test {
 
 using Parts = std::vector<std::int64_t>;
 
@@ -129,5 +129,5 @@ TEST_F(StageReport, VerbosePrintsALineForEachStageAndStream) {
   EXPECT_EQ(streams, tree["streams"].size()) << outcome.out;
 }
 
-}  // namespace
+}  // namespace stage_time_test
 }  // namespace parallax

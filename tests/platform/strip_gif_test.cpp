@@ -20,7 +20,7 @@
 #include "tlm/error.hpp"
 
 namespace parallax {
-namespace {
+namespace strip_gif_test {
 
 /// A GIF as Pillow reads it.
 struct Animation {
@@ -172,5 +172,5 @@ TEST(StripFile, NothingIsLeftWhenItDoesNotFit) {
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
-}  // namespace
+}  // namespace strip_gif_test
 }  // namespace parallax

@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// Synthetic calibrations, and a folder to put files in.
+// Synthetic calibrations, and tests with a folder to put files in.
 #pragma once
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <functional>
 #include <opencv2/core.hpp>
 #include <string>
 #include <vector>
 
+#include "tests/platform/temporary_folder.hpp"
 #include "tlm/error.hpp"
 
 namespace parallax::test {
@@ -27,22 +25,14 @@ inline std::string message(const std::function<void()>& run) {
   return "";
 }
 
-class TemporaryFolder : public ::testing::Test {
+class FolderTest : public ::testing::Test {
  protected:
-  void SetUp() override {
-    std::string name = (std::filesystem::temp_directory_path() / "parallax-XXXXXX").string();
-    ASSERT_NE(::mkdtemp(name.data()), nullptr);
-    folder_ = name;
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
-  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  std::string path(const std::string& name) const { return folder_ / name; }
   std::string write(const std::string& name, const std::string& text) const {
-    std::ofstream(path(name)) << text;
-    return path(name);
+    return folder_.write(name, text);
   }
 
-  std::filesystem::path folder_;
+  const TemporaryFolder folder_;
 };
 
 /// A stereo pair of two similar lenses, the right one 0.1 to the right and turned a little.

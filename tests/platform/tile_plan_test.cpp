@@ -8,7 +8,7 @@
 #include "tests/platform/error_of.hpp"
 
 namespace parallax::test {
-namespace {
+namespace tile_plan_test {
 
 DisparityRange range(int offset, int count) {
   DisparityRange range;
@@ -147,5 +147,5 @@ TEST(CutMap, IsTheMapsColumnsTileByTile) {
   }
 }
 
-}  // namespace
+}  // namespace tile_plan_test
 }  // namespace parallax::test

@@ -11,7 +11,7 @@
 #include "tlm/error.hpp"
 
 namespace parallax {
-namespace {
+namespace validate_command_test {
 
 class ValidateCommand : public testing::Test {
  protected:
@@ -209,5 +209,5 @@ TEST_F(ValidateCommand, WhatCannotBeRun) {
   EXPECT_NE(none.err.find("no rows 'scenescan-pr'"), std::string::npos) << none.err;
 }
 
-}  // namespace
+}  // namespace validate_command_test
 }  // namespace parallax

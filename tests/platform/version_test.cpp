@@ -7,7 +7,7 @@
 #include <string>
 
 namespace parallax {
-namespace {
+namespace version_test {
 
 TEST(Version, NamesTheRelease) {
   const std::string text = version();
@@ -23,5 +23,5 @@ TEST(Version, NamesTheRevisionOrSaysThatItIsUnknown) {
   EXPECT_GE(hash.size(), 12U) << text;
 }
 
-}  // namespace
+}  // namespace version_test
 }  // namespace parallax

@@ -16,7 +16,7 @@
 #include <system_error>
 
 namespace parallax {
-namespace {
+namespace worker_process_test {
 
 using State = WorkerProcess::State;
 
@@ -138,5 +138,5 @@ TEST(WorkerProcess, FailsWhereNoPipeCanBeMade) {
   EXPECT_EQ(fault, "no connection to a process: Too many open files");
 }
 
-}  // namespace
+}  // namespace worker_process_test
 }  // namespace parallax

@@ -12,7 +12,7 @@
 #include "tests/paths.hpp"
 
 namespace parallax::test {
-namespace {
+namespace browser_test {
 
 using Json = nlohmann::json;
 
@@ -127,5 +127,5 @@ TEST_F(Browser, OpensAComparison) {
   EXPECT_NE(text.find("performance/frame_rate"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace browser_test
 }  // namespace parallax::test

@@ -16,7 +16,7 @@
 #include "tlm/error.hpp"
 
 namespace parallax::test {
-namespace {
+namespace report_test {
 
 using Json = nlohmann::ordered_json;
 
@@ -221,5 +221,5 @@ TEST_F(Report, DamageAnywhereIsAnErrorOfTheUsers) {
   EXPECT_LT(refused, tried);
 }
 
-}  // namespace
+}  // namespace report_test
 }  // namespace parallax::test

@@ -12,7 +12,7 @@
 #include "tests/timing/random_pipeline.hpp"
 
 namespace parallax::test {
-namespace {
+namespace closed_form_test {
 
 // Look-ahead of each stage in pixels.
 struct LookAhead {
@@ -215,5 +215,5 @@ TEST(ClosedForm, AnyMachine) {
   EXPECT_GT(periods, all / 12);
 }
 
-}  // namespace
+}  // namespace closed_form_test
 }  // namespace parallax::test

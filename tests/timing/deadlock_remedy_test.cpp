@@ -21,7 +21,7 @@
 #include "tlm/deadlock.hpp"
 
 namespace parallax::test {
-namespace {
+namespace deadlock_remedy_test {
 
 constexpr std::uint32_t kDeep = 100'000;  // holds all tokens that pass in these tests
 
@@ -270,5 +270,5 @@ TEST_P(LargeMachine, GetsThroughWithThatAndNotWithLess) {
 INSTANTIATE_TEST_SUITE_P(Streams, LargeMachine,
                          testing::Values(Large{"left_output", 16, 35527}, Large{"left_texture", 4, 256}));
 
-}  // namespace
+}  // namespace deadlock_remedy_test
 }  // namespace parallax::test

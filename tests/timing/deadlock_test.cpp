@@ -11,7 +11,7 @@
 #include "tlm/deadlock.hpp"
 
 namespace parallax::test {
-namespace {
+namespace deadlock_test {
 
 // A fork whose branches meet again: a window of 10 tokens on one, a FIFO on the other.
 //   0 source -> 1 fork -> 2 window -> 3 join -> 4 sink
@@ -233,5 +233,5 @@ TEST(Deadlock, NoneWhereTheImageIsAheadOfTheDisparities) {
   EXPECT_EQ(ended.status, 0) << ended.text;
 }
 
-}  // namespace
+}  // namespace deadlock_test
 }  // namespace parallax::test

@@ -10,7 +10,7 @@
 #include "tests/timing/random_graph.hpp"
 
 namespace parallax::test {
-namespace {
+namespace invariants_test {
 
 using Dates = std::vector<std::vector<std::int64_t>>;  // two lists an edge: written, read
 
@@ -65,5 +65,5 @@ RC_GTEST_PROP(Invariants, ADeeperFifoDelaysNoToken, ()) {
   }
 }
 
-}  // namespace
+}  // namespace invariants_test
 }  // namespace parallax::test

@@ -13,7 +13,7 @@
 #include "tests/timing/machine_bench.hpp"
 
 namespace parallax::test {
-namespace {
+namespace kept_values_test {
 
 constexpr int kWidth = 48;
 constexpr int kHeight = 32;
@@ -112,5 +112,5 @@ TEST(KeptValues, AFrameThatComesBackOtherwiseIsReported) {
   EXPECT_NE(text.find("/parallax/matching/kept"), std::string::npos) << text.substr(0, 200);
 }
 
-}  // namespace
+}  // namespace kept_values_test
 }  // namespace parallax::test

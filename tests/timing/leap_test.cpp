@@ -20,7 +20,7 @@
 #include "tests/timing/statistics_text.hpp"
 
 namespace parallax::test {
-namespace {
+namespace leap_test {
 
 template <class Simulation>
 std::string outcome(Simulation& simulation) {
@@ -188,5 +188,5 @@ TEST(Leap, CanBeSwitchedOff) {
   EXPECT_EQ(simulation.dataflow().leaped_firings(), 0u);
 }
 
-}  // namespace
+}  // namespace leap_test
 }  // namespace parallax::test

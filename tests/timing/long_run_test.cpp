@@ -9,7 +9,7 @@
 #include "tlm/stream.hpp"
 
 namespace parallax::test {
-namespace {
+namespace long_run_test {
 
 __extension__ using Wide = __int128;
 
@@ -106,5 +106,5 @@ TEST(LongRun, DatesDoNotDriftUpstream) {
   ASSERT_GT(first_writes, 1'000'000'000);
 }
 
-}  // namespace
+}  // namespace long_run_test
 }  // namespace parallax::test

@@ -14,7 +14,7 @@
 #include "tests/timing/machine_bench.hpp"
 
 namespace parallax::test {
-namespace {
+namespace machine_cameras_test {
 
 constexpr int kWidth = 160;
 constexpr int kHeight = 64;
@@ -190,5 +190,5 @@ TEST(MachineCameras, TheFirstExposureMayBeginBeforeTheRun) {
   EXPECT_EQ(nlohmann::json::parse(outcome.out)["camera"]["missed_triggers"]["value"], 0);
 }
 
-}  // namespace
+}  // namespace machine_cameras_test
 }  // namespace parallax::test

@@ -12,7 +12,7 @@
 #include "tests/timing/random_machine.hpp"
 
 namespace parallax::test {
-namespace {
+namespace machine_invariants_test {
 
 using Json = nlohmann::ordered_json;
 
@@ -162,5 +162,5 @@ TEST(MachineInvariants, AFasterMemoryDelaysNoFrameOfTheseMachines) {
   }
 }
 
-}  // namespace
+}  // namespace machine_invariants_test
 }  // namespace parallax::test

@@ -13,7 +13,7 @@
 #include "tests/tlm/thread.hpp"
 
 namespace parallax::test {
-namespace {
+namespace machine_registers_test {
 
 constexpr int kWidth = 96;
 constexpr int kHeight = 48;
@@ -221,5 +221,5 @@ TEST(MachineRegisters, AParameterWrittenDuringAFrameCountsFromTheNext) {
   EXPECT_NE(all[1], all[0]);
 }
 
-}  // namespace
+}  // namespace machine_registers_test
 }  // namespace parallax::test

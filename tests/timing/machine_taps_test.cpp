@@ -12,7 +12,7 @@
 #include "tlm/tap.hpp"
 
 namespace parallax::test {
-namespace {
+namespace machine_taps_test {
 
 constexpr int kWidth = 67;
 constexpr int kHeight = 24;
@@ -156,5 +156,5 @@ TEST(MachineTaps, EveryValueMeetsItsDate) {
 
 TEST(MachineTaps, DatesComeWithoutValuesToo) { EXPECT_EQ(faults({"rectification.window=9"}, false), ""); }
 
-}  // namespace
+}  // namespace machine_taps_test
 }  // namespace parallax::test

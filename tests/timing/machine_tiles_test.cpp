@@ -11,7 +11,7 @@
 #include "tests/timing/machine_bench.hpp"
 
 namespace parallax::test {
-namespace {
+namespace machine_tiles_test {
 
 constexpr int kWidth = 150;
 constexpr int kHeight = 40;
@@ -114,5 +114,5 @@ TEST(MachineTiles, WithOddBurstsAndEightPaths) {
           2);
 }
 
-}  // namespace
+}  // namespace machine_tiles_test
 }  // namespace parallax::test

@@ -12,7 +12,7 @@
 #include "tests/timing/machine_bench.hpp"
 
 namespace parallax::test {
-namespace {
+namespace machine_values_test {
 
 constexpr int kWidth = 64;
 constexpr int kHeight = 32;
@@ -150,5 +150,5 @@ TEST(MachineValues, DoNotDependOnWhoseMemoryItIs) {
   EXPECT_NE(time(other), time(own));
 }
 
-}  // namespace
+}  // namespace machine_values_test
 }  // namespace parallax::test

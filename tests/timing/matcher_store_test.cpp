@@ -10,7 +10,7 @@
 #include "tests/timing/machine_bench.hpp"
 
 namespace parallax::test {
-namespace {
+namespace matcher_store_test {
 
 struct Outcome {
   std::map<std::string, double> bytes;  // a frame, by port
@@ -114,5 +114,5 @@ TEST(MatcherStore, MustFitIntoTheMemory) {
             "memory.size_bytes = 1048576 is too small: buffer at 0xf4240 with 245760 B ends at 1245760");
 }
 
-}  // namespace
+}  // namespace matcher_store_test
 }  // namespace parallax::test

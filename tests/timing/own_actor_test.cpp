@@ -10,7 +10,7 @@
 #include "tests/timing/model_simulation.hpp"
 
 namespace parallax::test {
-namespace {
+namespace own_actor_test {
 
 constexpr std::uint32_t kTokens = 3000;
 
@@ -115,5 +115,5 @@ TEST(OwnActor, HasTheDatesOfAStageThatDoesTheSameBySchedule) {
   EXPECT_EQ(std::count(actor.begin(), actor.end(), ' '), 8 * kTokens);
 }
 
-}  // namespace
+}  // namespace own_actor_test
 }  // namespace parallax::test

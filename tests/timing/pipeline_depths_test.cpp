@@ -12,7 +12,7 @@
 #include "tests/timing/pipeline_simulation.hpp"
 
 namespace parallax::test {
-namespace {
+namespace pipeline_depths_test {
 
 std::vector<std::string> split(const std::string& line) {
   std::vector<std::string> parts;
@@ -59,5 +59,5 @@ TEST(PipelineDepths, AreThoseOfTheFormulaByHand) {
   EXPECT_EQ(rows, 90);
 }
 
-}  // namespace
+}  // namespace pipeline_depths_test
 }  // namespace parallax::test

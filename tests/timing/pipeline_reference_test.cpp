@@ -11,7 +11,7 @@
 #include "tests/timing/reference_simulation.hpp"
 
 namespace parallax::test {
-namespace {
+namespace pipeline_reference_test {
 
 constexpr std::uint64_t kFrames = 2;
 
@@ -106,5 +106,5 @@ RC_GTEST_PROP(PipelineReference, AutomaticDepthsCostNoCycle, ()) {
   if (!text.empty()) RC_FAIL(text);
 }
 
-}  // namespace
+}  // namespace pipeline_reference_test
 }  // namespace parallax::test

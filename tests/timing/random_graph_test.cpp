@@ -14,7 +14,7 @@
 #include "tests/timing/reference_simulation.hpp"
 
 namespace parallax::test {
-namespace {
+namespace random_graph_test {
 
 constexpr char kStuck = '!';
 constexpr std::array kKinds{FifoKind::kRegistered, FifoKind::kFirstWordFallThrough, FifoKind::kBlockRam,
@@ -74,5 +74,5 @@ TEST(RandomGraph, EveryDateEqualsTheReference) {
   for (const int kind : met.kinds) EXPECT_GT(kind, graphs / 8);
 }
 
-}  // namespace
+}  // namespace random_graph_test
 }  // namespace parallax::test

@@ -10,7 +10,7 @@
 #include "tests/tlm/thread.hpp"
 
 namespace parallax::test {
-namespace {
+namespace several_listeners_test {
 
 // Notes every call, with its arguments. `patience`: firings.
 class StageCalls final : public StageListener {
@@ -144,5 +144,5 @@ TEST(SeveralListeners, ComeAndGoInTheMidstOfALeap) {
       "");
 }
 
-}  // namespace
+}  // namespace several_listeners_test
 }  // namespace parallax::test

@@ -16,7 +16,7 @@
 #include "tests/tlm/thread.hpp"
 
 namespace parallax::test {
-namespace {
+namespace tap_test {
 
 int value_of(std::size_t edge, std::size_t index) {
   return static_cast<int>((edge * 7919 + index) * 2654435761U % 1000003U);
@@ -265,5 +265,5 @@ TEST(Tap, ReportsValuesThatAreCutOtherwise) {
   }
 }
 
-}  // namespace
+}  // namespace tap_test
 }  // namespace parallax::test

@@ -8,7 +8,7 @@
 #include "tlm/error.hpp"
 
 namespace parallax {
-namespace {
+namespace clock_domain_test {
 
 const std::vector<std::int64_t> kFrequencies{
     1, 3, 7, 32'768, 125'000'000, 171'999'997, 175'000'000, 533'333'333, 999'999'937, 1'000'000'000'000};
@@ -103,5 +103,5 @@ TEST(ClockDomain, RefusesFrequenciesThatAreNone) {
   }
 }
 
-}  // namespace
+}  // namespace clock_domain_test
 }  // namespace parallax

@@ -15,7 +15,7 @@
 #include "tlm/memory.hpp"
 
 namespace parallax::test {
-namespace {
+namespace dma_test {
 
 using Dates = std::vector<std::int64_t>;
 using Values = std::vector<std::uint8_t>;
@@ -451,5 +451,5 @@ TEST(BurstCount, RoundsUp) {
   EXPECT_EQ(burst_count(129, Bytes(128)), 2u);
 }
 
-}  // namespace
+}  // namespace dma_test
 }  // namespace parallax::test

@@ -10,7 +10,7 @@
 #include "tests/tlm/naive_dram.hpp"
 
 namespace parallax::test {
-namespace {
+namespace dram_controller_test {
 
 class Log final : public DramListener {
  public:
@@ -187,5 +187,5 @@ TEST(DramController, RefreshesWithoutWorkAreCountedNotGoneThrough) {
   EXPECT_EQ(leapt.statistics().refreshes, 1'000'000'000'000'000 / 4160u);
 }
 
-}  // namespace
+}  // namespace dram_controller_test
 }  // namespace parallax::test

@@ -14,7 +14,7 @@
 #include "tlm/memory.hpp"
 
 namespace parallax::test {
-namespace {
+namespace dram_memory_test {
 
 using Clock = DramController::Clock;
 
@@ -381,5 +381,5 @@ TEST(DramMemory, AnEmptyOrImpossibleRequestIsAnsweredToo) {
   EXPECT_EQ(b[0].times[2].status, ::tlm::TLM_OK_RESPONSE);
 }
 
-}  // namespace
+}  // namespace dram_memory_test
 }  // namespace parallax::test

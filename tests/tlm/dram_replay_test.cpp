@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 namespace parallax::test {
-namespace {
+namespace dram_replay_test {
 
 using Trace = std::vector<TraceRequest>;
 
@@ -103,5 +103,5 @@ TEST(DramReplay, AnyMixEnds) {
   }
 }
 
-}  // namespace
+}  // namespace dram_replay_test
 }  // namespace parallax::test

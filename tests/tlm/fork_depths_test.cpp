@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 namespace parallax {
-namespace {
+namespace fork_depths_test {
 
 // A graph by names: a stage is what it is written with, a stream two stages.
 class Builder {
@@ -199,5 +199,5 @@ TEST(ForkDepths, LookAheadInPixelsIsAsManyGroupsOfTheForksTokens) {
   EXPECT_EQ(graph.depths()[shortcut], 10u * 4 + 3 + 16 + 2 + 2);
 }
 
-}  // namespace
+}  // namespace fork_depths_test
 }  // namespace parallax

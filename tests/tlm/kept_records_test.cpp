@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 namespace parallax::test {
-namespace {
+namespace kept_records_test {
 
 TEST(KeptRecords, KeepsAllUnlessTold) {
   KeptRecords<int> records;
@@ -29,5 +29,5 @@ TEST(KeptRecords, KeepsTheFirstAndTheLast) {
   EXPECT_EQ(records[99], 7);
 }
 
-}  // namespace
+}  // namespace kept_records_test
 }  // namespace parallax::test

@@ -8,7 +8,7 @@
 #include <vector>
 
 namespace parallax::test {
-namespace {
+namespace latency_histogram_test {
 
 sc_core::sc_time ps(std::uint64_t count) { return sc_core::sc_time::from_value(count); }
 
@@ -51,5 +51,5 @@ TEST(LatencyHistogram, PercentilesAreThoseOfTheSortedValues) {
   }
 }
 
-}  // namespace
+}  // namespace latency_histogram_test
 }  // namespace parallax::test

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 namespace parallax {
-namespace {
+namespace listeners_test {
 
 using Each = std::vector<const int*>;
 
@@ -44,5 +44,5 @@ TEST(Listeners, RefuseOneTwiceAndOneThatIsNotThere) {
   EXPECT_EQ(listeners.size(), 1U);
 }
 
-}  // namespace
+}  // namespace listeners_test
 }  // namespace parallax

@@ -9,7 +9,7 @@
 #include "tlm/time_resolution.hpp"
 
 namespace parallax::test {
-namespace {
+namespace memory_faults_test {
 
 // The error that the simulation ends with.
 std::string report() {
@@ -149,5 +149,5 @@ TEST(TimeResolution, OtherThanAPicosecondIsRefused) {
   EXPECT_EQ(error_of([] { ClockDomain("clock", Hertz(1)); }), line);
 }
 
-}  // namespace
+}  // namespace memory_faults_test
 }  // namespace parallax::test

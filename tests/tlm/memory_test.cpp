@@ -12,7 +12,7 @@
 #include "tlm/traffic_only.hpp"
 
 namespace parallax::test {
-namespace {
+namespace memory_test {
 
 TEST(Memory, ABurstTakesItsBytesAtTheBusRateRoundedUp) {
   Bench b;
@@ -386,5 +386,5 @@ TEST(Memory, KeepsToTheBaseProtocol) {
   }
 }
 
-}  // namespace
+}  // namespace memory_test
 }  // namespace parallax::test

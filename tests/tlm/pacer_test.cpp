@@ -6,7 +6,7 @@
 #include <random>
 
 namespace parallax {
-namespace {
+namespace pacer_test {
 
 TEST(Pacer, NeverLosesAFraction) {
   // A gigabit line on a 175 MHz clock: 1.4 cycles a byte.
@@ -31,5 +31,5 @@ TEST(Pacer, SlowUnitsTakeNothingUntilOneIsDue) {
 
 TEST(Pacer, WithoutALimitNothingTakesTime) { EXPECT_EQ(Pacer(0, 1).take(1'000'000).count(), 0); }
 
-}  // namespace
+}  // namespace pacer_test
 }  // namespace parallax

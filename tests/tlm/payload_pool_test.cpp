@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 namespace parallax {
-namespace {
+namespace payload_pool_test {
 
 TEST(PayloadPool, APayloadIsReadyToSend) {
   PayloadPool pool(64);
@@ -50,5 +50,5 @@ TEST(PayloadPool, APayloadWithoutDataSaysSoUntilItIsUsedForSome) {
   data.release();
 }
 
-}  // namespace
+}  // namespace payload_pool_test
 }  // namespace parallax

@@ -6,7 +6,7 @@
 #include <random>
 
 namespace parallax {
-namespace {
+namespace ratio_test {
 
 __extension__ using Wide = unsigned __int128;
 
@@ -69,5 +69,5 @@ TEST(Ratio, IsExactAtTheEndsOfItsRange) {
   }
 }
 
-}  // namespace
+}  // namespace ratio_test
 }  // namespace parallax

@@ -10,7 +10,7 @@
 #include "tests/tlm/thread.hpp"
 
 namespace parallax::test {
-namespace {
+namespace register_bank_test {
 
 using A = FieldAccess;
 
@@ -181,5 +181,5 @@ TEST(RegisterBank, ATableThatContradictsItselfIsRefused) {
   EXPECT_THROW(b.bank.get("one", "whole", "none"), std::logic_error);
 }
 
-}  // namespace
+}  // namespace register_bank_test
 }  // namespace parallax::test

@@ -7,7 +7,7 @@
 #include <random>
 
 namespace parallax {
-namespace {
+namespace ring_test {
 
 TEST(Ring, IsAQueue) {
   std::mt19937 random(1);
@@ -32,5 +32,5 @@ TEST(Ring, IsAQueue) {
   }
 }
 
-}  // namespace
+}  // namespace ring_test
 }  // namespace parallax

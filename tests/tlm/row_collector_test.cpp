@@ -6,7 +6,7 @@
 #include <random>
 
 namespace parallax {
-namespace {
+namespace row_collector_test {
 
 using Rows = std::vector<std::vector<int>>;
 
@@ -41,5 +41,5 @@ TEST(RowCollector, MakesTheSameRowsOfAnyPieces) {
   }
 }
 
-}  // namespace
+}  // namespace row_collector_test
 }  // namespace parallax

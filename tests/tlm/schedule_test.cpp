@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 namespace parallax {
-namespace {
+namespace schedule_test {
 
 TEST(Schedule, EmptyPiecesAreLeftOut) {
   Schedule schedule;
@@ -49,5 +49,5 @@ TEST(Schedule, CountsBeyond32Bits) {
   EXPECT_EQ(schedule.produced(0), 3ull << 33);
 }
 
-}  // namespace
+}  // namespace schedule_test
 }  // namespace parallax

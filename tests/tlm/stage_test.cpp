@@ -14,7 +14,7 @@
 #include "tests/timing/statistics_text.hpp"
 
 namespace parallax::test {
-namespace {
+namespace stage_test {
 
 using Dates = std::vector<std::int64_t>;
 constexpr std::uint64_t kThreads = ~0ull;
@@ -268,5 +268,5 @@ TEST(Stage, AScheduleOfPortsThatDoNotExistIsRefused) {
   EXPECT_THROW(model.run(), std::logic_error);
 }
 
-}  // namespace
+}  // namespace stage_test
 }  // namespace parallax::test

@@ -11,7 +11,7 @@
 #include "tlm/error.hpp"
 
 namespace parallax::test {
-namespace {
+namespace stream_test {
 
 using Dates = std::vector<std::int64_t>;
 
@@ -393,5 +393,5 @@ TEST(Stream, RefusesAnOffsetOfNothingBetweenClocksToWrite) {
             "stream 'pixels': an offset of 0 cycles cannot be kept between the clocks 'core' and 'link'");
 }
 
-}  // namespace
+}  // namespace stream_test
 }  // namespace parallax::test

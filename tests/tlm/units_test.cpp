@@ -6,7 +6,7 @@
 #include <type_traits>
 
 namespace parallax {
-namespace {
+namespace units_test {
 
 template <class A, class B, class = void>
 struct Adds : std::false_type {};
@@ -38,5 +38,5 @@ TEST(Units, CountLikeIntegers) {
   EXPECT_EQ(Cycles().count(), 0);
 }
 
-}  // namespace
+}  // namespace units_test
 }  // namespace parallax

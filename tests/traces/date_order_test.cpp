@@ -10,7 +10,7 @@
 #include <vector>
 
 namespace parallax::test {
-namespace {
+namespace date_order_test {
 
 using Told = std::vector<std::string>;
 
@@ -131,5 +131,5 @@ TEST(DateOrder, EveryKindOfEventGoesByItsDate) {
                         "burst 1 11", "burst 1 12", "end 13"}));
 }
 
-}  // namespace
+}  // namespace date_order_test
 }  // namespace parallax::test

@@ -13,7 +13,7 @@
 #include "traces/metric_table.hpp"
 
 namespace parallax::test {
-namespace {
+namespace metrics_test {
 
 using Json = nlohmann::ordered_json;
 
@@ -129,5 +129,5 @@ TEST(MetricWriter, WritesNothingThatIsNotInTheTable) {
   EXPECT_THROW(MetricWriter(root, table()).add("memory/left/kind", std::string("narrow")), std::logic_error);
 }
 
-}  // namespace
+}  // namespace metrics_test
 }  // namespace parallax::test

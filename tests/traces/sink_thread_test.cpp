@@ -13,7 +13,7 @@
 #include <vector>
 
 namespace parallax::test {
-namespace {
+namespace sink_thread_test {
 
 // Keeps what it is told, as text.
 class Listener final : public TraceSink {
@@ -168,5 +168,5 @@ TEST(SinkThread, ASlowSinkIsWaitedFor) {
   EXPECT_EQ(rows, 50'000);
 }
 
-}  // namespace
+}  // namespace sink_thread_test
 }  // namespace parallax::test

@@ -14,7 +14,7 @@
 #include "tests/cli/program.hpp"
 
 namespace parallax::test {
-namespace {
+namespace trace_files_test {
 
 constexpr const char* kAll = "--trace perfetto,vcd,csv,json ";
 const std::vector<std::string> kFiles{"trace.json",      "trace.pftrace",    "trace.vcd",
@@ -107,5 +107,5 @@ TEST(TraceFiles, OfAStuckMachineEndWithWhoWaits) {
   EXPECT_NE(program.read("out/trace.pftrace").find("stuck: downstream full"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace trace_files_test
 }  // namespace parallax::test

@@ -14,7 +14,7 @@
 #include "tests/traces/wave.hpp"
 
 namespace parallax::test {
-namespace {
+namespace trace_formats_test {
 
 constexpr const char* kRun =
     "run --size 96x64 --disparities 32 --timing-only --timing-frames 2 -q --out out ";
@@ -311,5 +311,5 @@ TEST_F(PerfettoFormat, OfTokensHasTheFiringsLevelsAndBurstsOfCsv) {
   }
 }
 
-}  // namespace
+}  // namespace trace_formats_test
 }  // namespace parallax::test

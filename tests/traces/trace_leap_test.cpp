@@ -15,7 +15,7 @@
 #include "traces/recorder.hpp"
 
 namespace parallax::test {
-namespace {
+namespace trace_leap_test {
 
 // Rows of all stages, and with `tokens` firings and tokens, a table after the other. What the rows of a
 // stream are is made up.
@@ -84,5 +84,5 @@ RC_GTEST_PROP(TraceLeap, ChangesNothing, ()) {
   if (!difference.empty()) RC_FAIL(difference);
 }
 
-}  // namespace
+}  // namespace trace_leap_test
 }  // namespace parallax::test

@@ -14,7 +14,7 @@
 #include "tests/traces/database.hpp"
 
 namespace parallax::test {
-namespace {
+namespace trace_numbers_test {
 
 struct Case {
   const char* name;
@@ -180,5 +180,5 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"SeveralPasses", "--size 96x64 --set matching.iterations=2"}),
     [](const auto& of) { return std::string(of.param.name); });
 
-}  // namespace
+}  // namespace trace_numbers_test
 }  // namespace parallax::test

@@ -6,7 +6,7 @@
 #include "tests/traces/database.hpp"
 
 namespace parallax::test {
-namespace {
+namespace trace_windows_test {
 
 constexpr const char* kRun = "run --size 96x64 --disparities 32 --timing-only --timing-frames 3 -q ";
 
@@ -150,5 +150,5 @@ TEST(TraceOptions, AMomentMustBeAFrameARowOrATime) {
   }
 }
 
-}  // namespace
+}  // namespace trace_windows_test
 }  // namespace parallax::test
