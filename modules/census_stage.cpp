@@ -9,7 +9,7 @@ CensusStage::CensusStage(const sc_core::sc_module_name& name, const CensusConfig
       left_(config, context.width, context.height),
       right_(config, context.width, context.height),
       look_ahead_(look_ahead_pixels(context, left_.look_ahead_rows(), left_.look_ahead_pixels())) {
-  const auto width = static_cast<std::size_t>(context.width);
+  const std::size_t width = context.width;
   RasterSchedule raster;
   raster.reads.every = 0b11;
   raster.writes.every = 0b11;

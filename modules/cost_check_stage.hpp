@@ -30,8 +30,7 @@ class CostCheckStage final : public Stage {
       : Stage(name, context.clock, context.dataflow, timing.latency),
         kernel_(std::in_place, config, range, context.width, context.height),
         changes_(context.height),
-        rows_(static_cast<std::size_t>(context.width) * static_cast<std::size_t>(range.count),
-              static_cast<std::size_t>(context.width),
+        rows_(static_cast<std::size_t>(context.width) * range.count, context.width,
               [this, range, context, width = static_cast<std::size_t>(context.width)](
                   const Cost* costs, const Disparity* disparities) {
                 if (const auto change = changes_.at_row()) {
@@ -42,7 +41,7 @@ class CostCheckStage final : public Stage {
               }),
         look_ahead_(look_ahead_pixels(context, kernel_->look_ahead_rows(), kernel_->look_ahead_pixels())),
         storage_(kernel_->storage_bits()) {
-    const auto width = static_cast<std::size_t>(context.width);
+    const std::size_t width = context.width;
     RasterSchedule raster;
     raster.beats = groups;
     raster.reads.every = 0b01;
@@ -51,12 +50,11 @@ class CostCheckStage final : public Stage {
     raster.look_ahead = look_ahead_;
     raster.timing = timing;
     set_schedule(make_schedule(context, raster));
-    in_costs.on_row(width * static_cast<std::size_t>(range.count),
-                    [this](const Cost* row, std::size_t) { rows_.push_a(row); });
+    in_costs.on_row(width * range.count, [this](const Cost* row, std::size_t) { rows_.push_a(row); });
     in_disparity.on_row(width, [this](const Disparity* row, std::size_t) { rows_.push_b(row); });
   }
 
-  /// The configuration for the next frame that was not told yet, or none: as before. What fixes the schedule
+  /// The configuration for the next frame that has none yet, or none: as before. What fixes the schedule
   /// must not change.
   void configure(const std::optional<Config>& config) { changes_.push(config); }
   std::uint64_t look_ahead() const { return look_ahead_; }

@@ -38,7 +38,7 @@ class DisparityFilterStage final : public FilterStage {
         changes_(context.height),
         look_ahead_(look_ahead_pixels(context, kernel_->look_ahead_rows(), kernel_->look_ahead_pixels())),
         storage_(kernel_->storage_bits()) {
-    const auto width = static_cast<std::size_t>(context.width);
+    const std::size_t width = context.width;
     RasterSchedule raster;
     raster.reads.every = 0b1;
     raster.writes.every = 0b1;
@@ -51,7 +51,7 @@ class DisparityFilterStage final : public FilterStage {
     });
   }
 
-  /// The configuration for the next frame that was not told yet, or none: as before. What fixes the schedule
+  /// The configuration for the next frame that has none yet, or none: as before. What fixes the schedule
   /// must not change.
   void configure(const std::optional<Config>& config) { changes_.push(config); }
   std::uint64_t look_ahead() const override { return look_ahead_; }

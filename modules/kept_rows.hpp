@@ -24,7 +24,7 @@ class KeptRows {
     const std::vector<std::uint8_t>& left = rows_[index];
     const bool same = left.size() == bytes && std::equal(left.begin(), left.end(), row);
     if (++back_ == block_) {
-      rows_.erase(rows_.begin(), rows_.begin() + static_cast<std::ptrdiff_t>(block_));
+      rows_.erase(rows_.begin(), rows_.begin() + block_);
       back_ = 0;
     }
     return same;

@@ -6,7 +6,7 @@ namespace {
 
 Schedule map_schedule(const EncodedMap& map, Bytes word, const StageTiming& timing) {
   MapDecoder decoder(map.range, map.width, map.height);
-  std::vector<OffsetPair> row(static_cast<std::size_t>(map.width));
+  std::vector<OffsetPair> row(map.width);
   std::vector<std::uint32_t> end_bit(row.size());
   const auto word_bits = static_cast<std::uint64_t>(word.count()) * 8;
   const Phase firing = fires().every(timing.interval);
@@ -28,7 +28,7 @@ Schedule map_schedule(const EncodedMap& map, Bytes word, const StageTiming& timi
         firings.add(firing.writes(0b1));
       }
     }
-    row_start += map.row_bytes[static_cast<std::size_t>(y)];
+    row_start += map.row_bytes[y];
     firings.add(idles(timing.row_overhead));
   }
   // The padding of the last word belongs to no row; a word that holds nothing else is read all the same.
@@ -43,7 +43,7 @@ MapDecoderStage::MapDecoderStage(const sc_core::sc_module_name& name, const Enco
                                  const StageTiming& timing, const StageContext& context)
     : Stage(name, context.clock, context.dataflow, timing.latency),
       kernel_(map.range, map.width, map.height),
-      row_(static_cast<std::size_t>(map.width)) {
+      row_(map.width) {
   set_schedule(map_schedule(map, word, timing));
   in_words.on_row(0, [this](const std::uint8_t* bytes, std::size_t size) {
     kernel_.push(bytes, size, row_.data());

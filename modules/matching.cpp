@@ -34,9 +34,9 @@ void check(const char* key, int value, int low, int high) {
   }
 }
 
-std::size_t product(int a, int b) { return static_cast<std::size_t>(a) * static_cast<std::size_t>(b); }
+std::size_t product(int a, int b) { return static_cast<std::size_t>(a) * b; }
 
-std::size_t count_of(const MatchingConfig& config) { return static_cast<std::size_t>(config.range().count); }
+std::size_t count_of(const MatchingConfig& config) { return config.range().count; }
 
 // Of a path cost, and of a sum of those of the first pass if there is a second one; whatever the penalties.
 int path_bits(const MatchingConfig& config, int code_bits) {
@@ -108,7 +108,7 @@ struct Matching::State {
     if (!second_pass.empty()) {
       left_codes.resize(product(width, height));
       right_codes.resize(product(width, height));
-      frame_sums.resize(product(width, height) * static_cast<std::size_t>(count));
+      frame_sums.resize(product(width, height) * count);
     }
   }
 
@@ -134,8 +134,8 @@ struct Matching::State {
       for (Path& path : pass) {
         if (!path.from_above()) continue;
         const PathCosts here = path.at(x, y);
-        for (int k = 0; k < count; ++k) packer.field(static_cast<std::uint64_t>(here.costs[k]), bits);
-        packer.field(static_cast<std::uint64_t>(*here.minimum), bits);
+        for (int k = 0; k < count; ++k) packer.field(here.costs[k], bits);
+        packer.field(*here.minimum, bits);
       }
       packer.end_token();
     }
@@ -149,7 +149,7 @@ struct Matching::State {
     const int sum_bits = first_sum_bits(config, code_bits);
     BitPacker packer;
     for (std::size_t pixel = product(row, width); pixel < product(row + 1, width); ++pixel) {
-      const Cost* pixel_sums = frame_sums.data() + pixel * static_cast<std::size_t>(count);
+      const Cost* pixel_sums = frame_sums.data() + pixel * count;
       for (int k = 0; k < count && sum_bits > 0; ++k) packer.field(pixel_sums[k], sum_bits);
       for (const CensusCode code : {left_codes[pixel], right_codes[pixel]}) {
         for (int low = 0; low < code_bits; low += kCodePiece) {
@@ -170,7 +170,7 @@ struct Matching::State {
       hamming.compute(left_codes.data() + first, right_codes.data() + first, costs.data());
       for (int j = 0; j < width; ++j) {
         const int x = width - 1 - j;
-        Cost* out = frame_sums.data() + first * static_cast<std::size_t>(count) + x * count;
+        Cost* out = frame_sums.data() + first * count + x * count;
         for (Path& path : second_pass) path.advance(j, i, costs.data() + x * count, out);
       }
       keep_row(second_pass, i, take);
@@ -214,7 +214,7 @@ void Matching::push(const CensusCode* left, const CensusCode* right, const RowSi
   } else {
     std::copy_n(left, s.width, s.left_codes.data() + first);
     std::copy_n(right, s.width, s.right_codes.data() + first);
-    s.match(left, right, s.frame_sums.data() + first * static_cast<std::size_t>(s.count));
+    s.match(left, right, s.frame_sums.data() + first * s.count);
     s.keep_frame_row(keeper.frame);
   }
   s.keep_row(s.first_pass, s.row, keeper.row);
@@ -222,8 +222,7 @@ void Matching::push(const CensusCode* left, const CensusCode* right, const RowSi
   s.row = 0;
   if (one_pass()) return;
   s.sweep_back(keeper.row);
-  for (int y = 0; y < s.height; ++y)
-    emit(s.frame_sums.data() + product(y, s.width) * static_cast<std::size_t>(s.count));
+  for (int y = 0; y < s.height; ++y) emit(s.frame_sums.data() + product(y, s.width) * s.count);
 }
 
 int summed_cost_bits(const MatchingConfig& config, int code_bits) {

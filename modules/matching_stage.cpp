@@ -11,9 +11,8 @@ MatchingStage::MatchingStage(const sc_core::sc_module_name& name, const Matching
       kernel_(std::in_place, config, context.width, context.height, code_bits),
       changes_(context.height),
       codes_(
-          static_cast<std::size_t>(context.width), static_cast<std::size_t>(context.width),
-          [this, context, code_bits,
-           length = static_cast<std::size_t>(context.width) * static_cast<std::size_t>(config.range().count)](
+          context.width, context.width,
+          [this, context, code_bits, length = static_cast<std::size_t>(context.width) * config.range().count](
               const CensusCode* left, const CensusCode* right) {
             if (const auto change = changes_.at_row()) {
               kernel_.emplace(*change, context.width, context.height, code_bits);
@@ -25,8 +24,8 @@ MatchingStage::MatchingStage(const sc_core::sc_module_name& name, const Matching
       look_ahead_(look_ahead_pixels(context, kernel_->look_ahead_rows(), kernel_->look_ahead_pixels())),
       storage_(kernel_->storage_bits()),
       store_(kernel_->store()),
-      frame_kept_(static_cast<std::size_t>(context.height)) {
-  const auto width = static_cast<std::size_t>(context.width);
+      frame_kept_(context.height) {
+  const std::size_t width = context.width;
   RasterSchedule raster;
   raster.beats = static_cast<std::uint32_t>(config.iterations);
   raster.last_interval = static_cast<std::uint32_t>(config.recurrence_latency);

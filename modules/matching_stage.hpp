@@ -36,7 +36,7 @@ class MatchingStage final : public Stage {
   MatchingStage(const sc_core::sc_module_name& name, const MatchingConfig& config, int code_bits,
                 const StageTiming& timing, const StageContext& context);
 
-  /// The configuration for the next frame that was not told yet, or none: as before. What fixes the schedule
+  /// The configuration for the next frame that has none yet, or none: as before. What fixes the schedule
   /// must not change.
   void configure(const std::optional<MatchingConfig>& config) { changes_.push(config); }
   std::uint64_t look_ahead() const { return look_ahead_; }

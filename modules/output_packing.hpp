@@ -31,10 +31,10 @@ class OutputPacking {
 
   static std::size_t pair_bytes(OutputLeft format) { return 2 * left_bytes(format) + 3; }
   static std::size_t row_bytes(int width, OutputLeft format) {
-    return static_cast<std::size_t>((width + 1) / 2) * pair_bytes(format);
+    return ((width + 1) / 2) * pair_bytes(format);
   }
   /// The first pixel of a pair, 20 or 36 bit.
-  std::int64_t storage_bits() const { return static_cast<std::int64_t>(8 * left_bytes(format_) + 12); }
+  std::int64_t storage_bits() const { return 8 * left_bytes(format_) + 12; }
 
  private:
   static std::size_t left_bytes(OutputLeft format) { return format == OutputLeft::kGrey ? 1 : 3; }

@@ -7,9 +7,9 @@ namespace {
 // The firings of pixels, one after the other.
 class PixelFirings {
  public:
-  explicit PixelFirings(Bytes burst) : burst_(static_cast<std::uint64_t>(burst.count())) {}
+  explicit PixelFirings(Bytes burst) : burst_(burst.count()) {}
 
-  void drop(int pixels) { firings_.add(fires(static_cast<std::uint64_t>(pixels)).reads(0b11)); }
+  void drop(int pixels) { firings_.add(fires(pixels).reads(0b11)); }
   // A pixel after which the piece has `bytes` bytes; `last`: it ends there.
   void pack(std::uint64_t bytes, bool last) {
     const std::uint64_t complete = last ? (bytes + burst_ - 1) / burst_ : bytes / burst_;
@@ -37,13 +37,11 @@ Schedule packing_schedule(const OutputPackingConfig& config, const StageContext&
     const int width = columns.end - columns.begin;
     for (int y = 0; y < context.height; ++y) {
       firings.drop(columns.begin);
-      const std::uint64_t before =
-          one_piece ? static_cast<std::uint64_t>(y) * OutputPacking::row_bytes(width, config.left) : 0;
+      const std::uint64_t before = one_piece ? y * OutputPacking::row_bytes(width, config.left) : 0;
       for (int x = 1; x <= width; ++x) {
         const bool last = x == width && (!one_piece || y + 1 == context.height);
-        const std::uint64_t bytes =
-            x == width ? OutputPacking::row_bytes(width, config.left)
-                       : static_cast<std::uint64_t>(x) / 2 * OutputPacking::pair_bytes(config.left);
+        const std::uint64_t bytes = x == width ? OutputPacking::row_bytes(width, config.left)
+                                               : x / 2 * OutputPacking::pair_bytes(config.left);
         firings.pack(before + bytes, last);
       }
       firings.drop(context.width - columns.end);
@@ -70,9 +68,9 @@ OutputPackingStage::OutputPackingStage(const sc_core::sc_module_name& name, cons
       height_(context.height),
       kernels_(kernels(config)),
       burst_(config.burst.count() * 8),
-      rows_(static_cast<std::size_t>(context.width), static_cast<std::size_t>(context.width),
+      rows_(context.width, context.width,
             [this](const Gray* left, const Disparity* disparities) { pack(left, disparities); }) {
-  const auto width = static_cast<std::size_t>(context.width);
+  const std::size_t width = context.width;
   set_schedule(packing_schedule(config, context));
   in_left.on_row(width, [this](const Gray* row, std::size_t) { rows_.push_a(row); });
   in_disparity.on_row(width, [this](const Disparity* row, std::size_t) { rows_.push_b(row); });

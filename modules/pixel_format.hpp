@@ -23,7 +23,7 @@ int bits_per_pixel(PixelFormat format);
 
 /// Bytes of `pixels` in a row; a started byte is a whole one.
 inline std::uint64_t bytes_of(PixelFormat format, std::uint64_t pixels) {
-  return (pixels * static_cast<std::uint64_t>(bits_per_pixel(format)) + 7) / 8;
+  return (pixels * bits_per_pixel(format) + 7) / 8;
 }
 
 /// Grey as a camera of this format sends it: 12 bit with four zeros below, three equal colours, or as it is.

@@ -26,8 +26,8 @@ std::vector<Phase> cut(std::uint64_t bytes, std::uint64_t burst, std::uint64_t b
 PixelUnpackStage::PixelUnpackStage(const sc_core::sc_module_name& name, const PixelUnpackConfig& config,
                                    const ClockDomain& clock, Dataflow& dataflow)
     : Stage(name, clock, dataflow, 0) {
-  const auto burst = static_cast<std::uint64_t>(config.burst.count());
-  const auto bits = static_cast<std::uint64_t>(bits_per_pixel(config.format));
+  const std::uint64_t burst = config.burst.count();
+  const std::uint64_t bits = bits_per_pixel(config.format);
   const std::uint64_t period =
       std::lcm(burst * 8, bits) / 8;  // bytes until bursts and pixels begin together again
   Schedule schedule;
@@ -37,7 +37,7 @@ PixelUnpackStage::PixelUnpackStage(const sc_core::sc_module_name& name, const Pi
   }
   set_schedule(schedule);
   in_bursts.on_row(
-      static_cast<std::size_t>(bytes_of(config.format, config.width)),
+      bytes_of(config.format, config.width),
       [this, config, row = std::vector<Gray>(config.width)](const std::uint8_t* bytes, std::size_t) mutable {
         unpack_pixels(config.format, bytes, config.width, row.data());
         out_tokens.send_row(row.data(), row.size());

@@ -62,14 +62,13 @@ std::vector<Phase> pixel(const RasterSchedule& raster, const Kind& kind) {
 }  // namespace
 
 std::uint64_t look_ahead_pixels(const StageContext& context, int rows, int pixels) {
-  const std::uint64_t wanted = static_cast<std::uint64_t>(rows) * static_cast<std::uint64_t>(context.width) +
-                               static_cast<std::uint64_t>(pixels);
+  const std::uint64_t wanted = static_cast<std::uint64_t>(rows) * context.width + pixels;
   return std::min(wanted, context.pixels());
 }
 
 Schedule make_schedule(const StageContext& context, const RasterSchedule& raster) {
   const std::uint64_t frame = context.pixels();
-  const auto width = static_cast<std::uint64_t>(context.width);
+  const std::uint64_t width = context.width;
   Schedule schedule;
   // Pixels `done` to `end` of the frame, cut where the kind of pixel changes or a row ends with an overhead.
   const auto go_through = [&](std::uint64_t done, std::uint64_t end, Kind kind,

@@ -17,9 +17,7 @@ struct StageContext {
   int width;
   int height;
 
-  std::uint64_t pixels() const {
-    return static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
-  }
+  std::uint64_t pixels() const { return static_cast<std::uint64_t>(width) * height; }
 };
 
 /// What a raster stage does to its ports for one pixel. Each pixel takes `beats` firings; ports are read or

@@ -42,9 +42,7 @@ struct RectificationMap {
   OffsetRange range;
   std::vector<OffsetPair> offsets;  ///< row-major, width * height
 
-  const OffsetPair* row(int y) const {
-    return offsets.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(width);
-  }
+  const OffsetPair* row(int y) const { return offsets.data() + static_cast<std::size_t>(y) * width; }
 
   /// The map of the columns first..first+count-1, for a vertical tile. Offsets stay as they are: they are
   /// relative.

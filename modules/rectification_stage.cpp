@@ -11,14 +11,14 @@ RectificationStage::RectificationStage(const sc_core::sc_module_name& name, cons
         out_left.send_row(left, width);
         out_right.send_row(right, width);
       }),
-      images_(static_cast<std::size_t>(context.width), static_cast<std::size_t>(context.width),
+      images_(context.width, context.width,
               [this, width = context.width](const Gray* left, const Gray* right) {
                 waiting_.emplace_back(left, left + width);
                 waiting_.emplace_back(right, right + width);
                 push_waiting_images();
               }),
       look_ahead_(look_ahead_pixels(context, kernel_.look_ahead_rows(), kernel_.look_ahead_pixels())) {
-  const auto width = static_cast<std::size_t>(context.width);
+  const std::size_t width = context.width;
   RasterSchedule raster;
   raster.reads.every = 0b011;
   raster.reads_late.every = 0b100;

@@ -17,17 +17,17 @@ void add_word(Firings& firings, bool reads, bool writes) {
 
 // Words of the row that byte `end` reaches into, counted from the row's begin.
 std::uint64_t words_until(const StoreLayout& layout, std::uint64_t end) {
-  const auto word = static_cast<std::uint64_t>(layout.word.count());
+  const std::uint64_t word = layout.word.count();
   return (end + word - 1) / word;
 }
 
 std::uint64_t words_per_burst(const StoreLayout& layout) {
-  return static_cast<std::uint64_t>(layout.burst.count() / layout.word.count());
+  return layout.burst.count() / layout.word.count();
 }
 
 // A record comes in; the words that it completes go out, the padding with those of the last record.
 std::vector<Phase> pack_row(const StoreLayout& layout, const StoreLayout::Pass& pass) {
-  const auto word = static_cast<std::uint64_t>(layout.word.count());
+  const std::uint64_t word = layout.word.count();
   const std::uint64_t per_burst = words_per_burst(layout);
   Firings firings;
   std::uint64_t packed = 0;  // words
@@ -85,7 +85,7 @@ class RowsOfBursts {
     const std::size_t row_bytes = layout_.row_bytes(pass);
     bytes_.resize(row_bytes);
     const std::size_t at = backwards_ ? row_bytes - filled_ - size : filled_;
-    std::copy(burst, burst + size, bytes_.begin() + static_cast<std::ptrdiff_t>(at));
+    std::copy(burst, burst + size, bytes_.begin() + at);
     filled_ += size;
     if (filled_ < row_bytes) return;
     send(bytes_.data(), layout_.width * pass.record_bytes);

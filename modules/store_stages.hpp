@@ -22,12 +22,10 @@ struct StoreLayout {
   Bytes burst{128};          ///< whole words
 
   std::uint64_t row_bursts(const Pass& pass) const {
-    const auto bytes = static_cast<std::uint64_t>(burst.count());
+    const std::uint64_t bytes = burst.count();
     return (width * pass.record_bytes + bytes - 1) / bytes;
   }
-  std::uint64_t row_bytes(const Pass& pass) const {
-    return row_bursts(pass) * static_cast<std::uint64_t>(burst.count());
-  }
+  std::uint64_t row_bytes(const Pass& pass) const { return row_bursts(pass) * burst.count(); }
 };
 
 /// Records in, bursts out: a word a cycle, and no more than a record a cycle. A burst goes out with its last

@@ -12,15 +12,14 @@ SubpixelStage::SubpixelStage(const sc_core::sc_module_name& name, const Subpixel
       kernel_(std::in_place, config, range, context.width, context.height),
       changes_(context.height),
       storage_(kernel_->storage_bits()) {
-  const auto width = static_cast<std::size_t>(context.width);
+  const std::size_t width = context.width;
   RasterSchedule raster;
   raster.beats = groups;
   raster.reads.every = 0b1;
   raster.writes.last = 0b1;
   raster.timing = timing;
   set_schedule(make_schedule(context, raster));
-  in_costs.on_row(width * static_cast<std::size_t>(range.count), [this, width, range, context](
-                                                                     const Cost* row, std::size_t) {
+  in_costs.on_row(width * range.count, [this, width, range, context](const Cost* row, std::size_t) {
     if (const auto change = changes_.at_row()) kernel_.emplace(*change, range, context.width, context.height);
     kernel_->push(row, [this, width](const Disparity* out) { out_disparity.send_row(out, width); });
   });

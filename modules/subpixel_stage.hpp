@@ -22,7 +22,7 @@ class SubpixelStage final : public Stage {
   SubpixelStage(const sc_core::sc_module_name& name, const SubpixelConfig& config, DisparityRange range,
                 std::uint32_t groups, const StageTiming& timing, const StageContext& context);
 
-  /// The configuration for the next frame that was not told yet, or none: as before. What fixes the schedule
+  /// The configuration for the next frame that has none yet, or none: as before. What fixes the schedule
   /// must not change.
   void configure(const std::optional<SubpixelConfig>& config) { changes_.push(config); }
   Bits storage() const { return storage_; }

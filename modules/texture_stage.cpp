@@ -9,7 +9,7 @@ TextureStage::TextureStage(const sc_core::sc_module_name& name, const TextureCon
       kernel_(config, context.width, context.height),
       changes_(context.height),
       look_ahead_(look_ahead_pixels(context, kernel_.look_ahead_rows(), kernel_.look_ahead_pixels())) {
-  const auto width = static_cast<std::size_t>(context.width);
+  const std::size_t width = context.width;
   RasterSchedule raster;
   raster.reads.every = 0b01;
   raster.reads_late.every = 0b10;

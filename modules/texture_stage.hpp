@@ -22,7 +22,7 @@ class TextureStage final : public Stage {
   TextureStage(const sc_core::sc_module_name& name, const TextureConfig& config, const StageTiming& timing,
                const StageContext& context);
 
-  /// The threshold for the next frame that was not told yet (0: nothing is judged), or none: as before.
+  /// The threshold for the next frame that has none yet (0: nothing is judged), or none: as before.
   void set_threshold(const std::optional<int>& threshold) { changes_.push(threshold); }
   /// Into the image; disparities are not looked ahead to.
   std::uint64_t look_ahead() const { return look_ahead_; }

@@ -10,8 +10,8 @@ namespace {
 
 // The value of the lowest `width` bits.
 std::int64_t value_of(std::uint64_t bits, const TokenField& field) {
-  if (field.width == 64) return static_cast<std::int64_t>(bits);
-  const auto value = static_cast<std::int64_t>(bits & ((std::uint64_t{1} << field.width) - 1));
+  if (field.width == 64) return bits;
+  const std::int64_t value = bits & ((std::uint64_t{1} << field.width) - 1);
   const bool negative = field.is_signed && (bits >> (field.width - 1) & 1u) != 0;
   return negative ? value - (std::int64_t{1} << field.width) : value;
 }
@@ -36,7 +36,7 @@ std::int64_t TokenFormat::get(const BitVector& bus, std::size_t index) const {
 
 void TokenFormat::set(BitVector& bus, std::size_t index, std::int64_t value) const {
   const TokenField& field = fields_.at(index);
-  const auto bits = static_cast<std::uint64_t>(value);
+  const std::uint64_t bits = value;
   if (value_of(bits, field) != value) {
     throw std::out_of_range(fmt::format("{} = {} has no place in {} bits", field.name, value, field.width));
   }

@@ -29,7 +29,7 @@ class TokenFormat {
 
   const std::vector<TokenField>& all() const { return fields_; }
   /// Bits of a token.
-  Bits width() const { return Bits(static_cast<std::int64_t>(bits_)); }
+  Bits width() const { return Bits(bits_); }
 
   BitVector bus() const { return BitVector(bits_); }
   /// Value of field `index` on `bus`; a signed one with its sign.

@@ -63,7 +63,7 @@ BitVector pack(const TokenFormat& offset_pair, const OffsetPair& value) {
 
 BitVector pack_code(const TokenFormat& census_code, CensusCode value) {
   BitVector bus = census_code.bus();
-  census_code.set(bus, 0, static_cast<std::int64_t>(value));
+  census_code.set(bus, 0, value);
   return bus;
 }
 

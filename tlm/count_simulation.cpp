@@ -26,7 +26,7 @@ void CountSimulation::add(const Participant& stage, const std::vector<const Stre
       all.emplace_back();
       for (const StreamBase* stream : port) {
         const auto found = std::find(streams.begin(), streams.end(), stream);
-        if (found != streams.end()) all.back().push_back(static_cast<std::size_t>(found - streams.begin()));
+        if (found != streams.end()) all.back().push_back(found - streams.begin());
       }
     }
     return all;
@@ -57,7 +57,7 @@ void CountSimulation::add(const Participant& stage, const std::vector<const Stre
   for (const Phase& phase : stage.schedule.phases()) {
     const std::pair<unsigned, unsigned> mask(phase.consume & read, phase.produce & written);
     const auto known = std::find(masks.begin(), masks.end(), mask);
-    action_of_phase.push_back(first_action + static_cast<std::size_t>(known - masks.begin()));
+    action_of_phase.push_back(first_action + (known - masks.begin()));
     if (known != masks.end()) continue;
     masks.push_back(mask);
     Action action{};

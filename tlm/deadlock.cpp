@@ -30,7 +30,7 @@ class Names {
   std::size_t number(const std::string& name) {
     const auto known = std::find(names_.begin(), names_.end(), name);
     if (known == names_.end()) return names_.push_back(name), names_.size() - 1;
-    return static_cast<std::size_t>(known - names_.begin());
+    return known - names_.begin();
   }
   std::size_t size() const { return names_.size(); }
   const std::string& operator[](std::size_t i) const { return names_[i]; }

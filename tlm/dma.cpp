@@ -227,7 +227,7 @@ bool DmaWriter::request_next() {
   }
   ::tlm::tlm_generic_payload& payload = take_payload(::tlm::TLM_WRITE_COMMAND);
   if (job().values) {
-    const auto end = bytes_.begin() + static_cast<std::ptrdiff_t>(size);
+    const auto end = bytes_.begin() + size;
     std::copy(bytes_.begin(), end, payload.get_data_ptr());
     bytes_.erase(bytes_.begin(), end);
   }

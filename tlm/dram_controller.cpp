@@ -28,22 +28,21 @@ void DramPolicy::validate() const {
     throw UserError(fmt::format("memory.{} = {}: must be from {} to {}", name, value, least, most));
   };
   constexpr std::int64_t kLongest = 1024;
-  require("read_queue", static_cast<std::int64_t>(read_queue), 1, kLongest);
-  require("write_queue", static_cast<std::int64_t>(write_queue), 1, kLongest);
-  require("write_high", static_cast<std::int64_t>(high_watermark), 1, static_cast<std::int64_t>(write_queue));
-  require("write_low", static_cast<std::int64_t>(low_watermark), 0,
-          static_cast<std::int64_t>(high_watermark) - 1);
+  require("read_queue", read_queue, 1, kLongest);
+  require("write_queue", write_queue, 1, kLongest);
+  require("write_high", high_watermark, 1, write_queue);
+  require("write_low", low_watermark, 0, high_watermark - 1);
   require("efficiency", efficiency, 1, 100);
 }
 
 DramController::DramController(const DramTiming& timing, const DramPolicy& policy)
     : timing_(valid(timing)),
       policy_(valid(policy)),
-      banks_(static_cast<std::size_t>(timing.banks)),
-      groups_(static_cast<std::size_t>(timing.bank_groups)),
+      banks_(timing.banks),
+      groups_(timing.bank_groups),
       command_share_(timing.burst_clocks() * 100 * 100 / policy.efficiency),
       refresh_due_(timing.refi > 0 ? timing.refi : kNever),
-      wanted_(static_cast<std::size_t>(timing.banks)) {
+      wanted_(timing.banks) {
   activates_.fill(kLongAgo);
   for (std::size_t bank = 0; bank < banks_.size(); ++bank) banks_[bank].group = bank % groups_.size();
   reads_.entries.reserve(policy.read_queue);
@@ -132,7 +131,7 @@ void DramController::plan_queue() {
       column_entry = i;
     }
   }
-  queue().misses = static_cast<std::int64_t>(entries.size() - hits);
+  queue().misses = entries.size() - hits;
   for (std::size_t i = 0; i < entries.size() && hits < entries.size(); ++i) {
     std::uint8_t& wanted = wanted_[entries[i].burst.location.bank];
     if (wanted != 0) continue;  // its row is wanted, or an older burst prepares it
@@ -210,8 +209,7 @@ void DramController::issue(std::vector<Done>& done) {
     const Burst burst = entry.burst;
     notify(at, plan_.command, burst.location);
     --from.bursts;
-    if (--entry.bursts == 0)
-      from.entries.erase(from.entries.begin() + static_cast<std::ptrdiff_t>(plan_.entry));
+    if (--entry.bursts == 0) from.entries.erase(from.entries.begin() + plan_.entry);
     column(at, burst, done);
   } else {
     issue_row(plan_);
@@ -352,7 +350,7 @@ bool DramController::serve_alone(const Burst& burst, std::uint64_t number, Clock
 void DramController::skip_refreshes(Clock limit) {
   if (plan_.clock != refresh_due_) return;
   const Clock refreshes = (limit - 1 - plan_.clock) / timing_.refi;
-  statistics_.refreshes += static_cast<std::uint64_t>(refreshes);
+  statistics_.refreshes += refreshes;
   refresh_due_ += refreshes * timing_.refi;
   plan_.clock = refresh_due_;
 }

@@ -18,7 +18,7 @@ class Replay {
   Replay(const DramTiming& timing, const DramPolicy& policy, DramMapping mapping, std::size_t window)
       : controller_(timing, policy),
         address_(timing, mapping),
-        burst_(static_cast<std::uint64_t>(timing.burst_bytes())),
+        burst_(timing.burst_bytes()),
         period_ns_(static_cast<double>(timing.clock_period_ps) / 1000),
         window_(window) {}
 
@@ -96,7 +96,7 @@ class Replay {
     for (const DramController::Done& done : done_) {
       result_.clocks = std::max(result_.clocks, done.data_end);
       if (done.write) continue;
-      Read& read = reads_[static_cast<std::size_t>(done.tag)];
+      Read& read = reads_[done.tag];
       read.end = std::max(read.end, done.data_end);
       if (--read.bursts_left > 0) continue;
       ends_.push(read.end);

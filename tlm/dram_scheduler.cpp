@@ -18,8 +18,8 @@ constexpr std::uint64_t kPorts = 256;
 DramScheduler::DramScheduler(const DramMemory& memory)
     : memory_(memory),
       period_((memory.timing.validate(), memory.timing.clock_period_ps)),
-      rate_(1, static_cast<std::uint64_t>(period_)),
-      burst_bytes_(static_cast<std::uint64_t>(memory.timing.burst_bytes())),
+      rate_(1, period_),
+      burst_bytes_(memory.timing.burst_bytes()),
       burst_clocks_(memory.timing.burst_clocks()),
       address_(memory.timing, memory.mapping),
       controller_(memory.timing, memory.policy) {
@@ -55,7 +55,7 @@ void DramScheduler::enter_until(Clock limit, MemoryService& service) {
   look_at_heads();
   while (!queues_->empty()) {
     // A request under way goes on: what had room then has room now.
-    const Port& port = ports_[current_];
+    const PortBursts& port = ports_[current_];
     if (port.bursts_left != 0 && next_ < limit && controller_.room(port.write)) {
       run_controller(next_ + 1, service);
       enter(current_, service);
@@ -169,7 +169,7 @@ bool DramScheduler::serve_alone(std::size_t id, Clock limit, MemoryService& serv
 
 // The next burst of the port's first request enters in clock next_.
 void DramScheduler::enter(std::size_t id, MemoryService& service) {
-  Port& port = ports_[id];
+  PortBursts& port = ports_[id];
   if (port.bursts_left == 0) {
     const ::tlm::tlm_generic_payload& payload = *queues_->head(id).payload;
     port.bursts_left = bursts_of(payload);
@@ -199,7 +199,7 @@ void DramScheduler::enter(std::size_t id, MemoryService& service) {
 void DramScheduler::take_done(MemoryService& service) {
   for (const DramController::Done& done : done_) {
     const std::size_t id = done.tag % kPorts;
-    Port& port = ports_[id];
+    PortBursts& port = ports_[id];
     add_beats(done.data_end, id);
     work_end_ = std::max(work_end_, done.data_end);
     if (done.write) continue;

@@ -55,7 +55,7 @@ class DramScheduler final : public MemoryScheduler {
     std::uint64_t bursts_left = 0;  // whose last beat is not known
     Clock end = 0;                  // of the last beat so far
   };
-  struct Port {
+  struct PortBursts {
     std::uint64_t bursts_left = 0;  // of the head of the queue when it is on its way in
     std::uint64_t next = 0;         // address of its next burst
     bool write = false;             // it is a write
@@ -101,7 +101,7 @@ class DramScheduler final : public MemoryScheduler {
   const DramAddress address_;
   DramController controller_;
   MemoryQueues* queues_ = nullptr;
-  std::vector<Port> ports_;
+  std::vector<PortBursts> ports_;
   // By port, of the first request that waits: its arrival, kNever without one, as date and as clock.
   std::vector<Picoseconds> arrival_dates_;
   std::vector<Clock> arrivals_;

@@ -57,9 +57,9 @@ class LatencyHistogram {
   static constexpr std::uint64_t kParts = 1u << kBits;
 
   static std::size_t bin_of(std::uint64_t value) {
-    if (value < kParts) return static_cast<std::size_t>(value);
+    if (value < kParts) return value;
     const unsigned shift = 63U - static_cast<unsigned>(__builtin_clzll(value)) - kBits;
-    return static_cast<std::size_t>(shift * kParts + (value >> shift));
+    return shift * kParts + (value >> shift);
   }
   /// Largest value of a bin.
   static std::uint64_t last_of(std::size_t bin) {

@@ -25,10 +25,10 @@ void Leap::build(const std::vector<Stage*>& stages) {
       members_.back().stage = stage;
     }
   }
-  const auto link_of = [this](StreamBase* stream) {
+  const auto link_of = [this](StreamBase* stream) -> std::size_t {
     const auto found =
         std::find_if(links_.begin(), links_.end(), [&](const Link& link) { return link.stream == stream; });
-    if (found != links_.end()) return static_cast<std::size_t>(found - links_.begin());
+    if (found != links_.end()) return found - links_.begin();
     links_.emplace_back();
     links_.back().stream = stream;
     return links_.size() - 1;

@@ -28,7 +28,7 @@ class Listeners {
     if (size() == 1) {
       list_.reset();
     } else {
-      list_->erase(list_->begin() + static_cast<std::ptrdiff_t>(at));
+      list_->erase(list_->begin() + at);
     }
   }
 
@@ -38,9 +38,7 @@ class Listeners {
   Listener* const* end() const { return begin() + size(); }
 
  private:
-  std::size_t find(const Listener& listener) const {
-    return static_cast<std::size_t>(std::find(begin(), end(), &listener) - begin());
-  }
+  std::size_t find(const Listener& listener) const { return std::find(begin(), end(), &listener) - begin(); }
 
   std::unique_ptr<std::vector<Listener*>> list_;
 };

@@ -88,8 +88,8 @@ Cycles Memory::cycle_at_or_after(const sc_core::sc_time& time) const {
 ::tlm::tlm_sync_enum Memory::nb_transport_fw(int id, ::tlm::tlm_generic_payload& payload,
                                              ::tlm::tlm_phase& phase, sc_core::sc_time& delay) {
   const Picoseconds now = present();
-  const auto index = static_cast<std::size_t>(id);
-  Port& port = ports_[index];
+  const std::size_t index = id;
+  AnswerPort& port = ports_[index];
   if (phase == ::tlm::END_RESP) {
     if (!port.answering || port.answered_payload != &payload) {
       SC_REPORT_ERROR("/parallax/memory/phase", "an END_RESP without a BEGIN_RESP of that request before it");
@@ -127,7 +127,7 @@ Cycles Memory::cycle_at_or_after(const sc_core::sc_time& time) const {
 
 void Memory::b_transport(int id, ::tlm::tlm_generic_payload& payload, sc_core::sc_time& delay) {
   sc_core::sc_event done;
-  enqueue(static_cast<std::size_t>(id), {&payload, present() + date(delay), &done});
+  enqueue(id, {&payload, present() + date(delay), &done});
   delay = sc_core::SC_ZERO_TIME;
   sc_core::wait(done);
 }
@@ -191,7 +191,7 @@ void Memory::run() {
     const Answer answer{
         {first.request.payload, first.request.arrival, first.request.blocking}, first.ready, first.port};
     answers_.pop_front();
-    Port& port = ports_[answer.port];
+    AnswerPort& port = ports_[answer.port];
     if (port.answering || !port.held.empty()) {
       port.held.push_back(answer);
       ++held_;
@@ -200,7 +200,7 @@ void Memory::run() {
     }
   }
   for (std::size_t id = 0; held_ != 0 && id < ports_.size(); ++id) {
-    Port& port = ports_[id];
+    AnswerPort& port = ports_[id];
     while (!port.held.empty() && !port.answering) {
       const Answer answer = port.held.front();
       port.held.pop_front();
@@ -222,7 +222,7 @@ void Memory::end_requests(Picoseconds now) {
 }
 
 void Memory::begin_response(const Answer& answer, Picoseconds now) {
-  Port& port = ports_[answer.port];
+  AnswerPort& port = ports_[answer.port];
   const Picoseconds at = std::max({now, answer.ready, port.answered_until});
   count_answers(port, now);
   EarlyAnswer& early = port.early.add();
@@ -246,7 +246,7 @@ void Memory::begin_response(const Answer& answer, Picoseconds now) {
 }
 
 // Counts the answers that were given ahead of their dates and are there now.
-void Memory::count_answers(Port& port, Picoseconds now) const {
+void Memory::count_answers(AnswerPort& port, Picoseconds now) const {
   for (; !port.early.empty() && port.early.front().date <= now; port.early.pop_front()) {
     const sc_core::sc_time latency = time(port.early.front().latency);
     port.statistics.latency_sum += latency;

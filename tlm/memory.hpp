@@ -78,7 +78,7 @@ class Memory : public sc_core::sc_module, private MemoryService {
     Picoseconds date;
     Picoseconds latency;
   };
-  struct Port {
+  struct AnswerPort {
     bool answering = false;                                        // BEGIN_RESP sent, END_RESP not seen
     const ::tlm::tlm_generic_payload* answered_payload = nullptr;  // of the last BEGIN_RESP
     Picoseconds answered_until;  // END_RESP's own time; the next BEGIN_RESP is not earlier
@@ -107,7 +107,7 @@ class Memory : public sc_core::sc_module, private MemoryService {
   void enqueue(std::size_t id, const MemoryRequest& request);
   void end_requests(Picoseconds now);
   void begin_response(const Answer& answer, Picoseconds now);
-  void count_answers(Port& port, Picoseconds now) const;
+  void count_answers(AnswerPort& port, Picoseconds now) const;
   void wake_in_time();
   void wake_at(Picoseconds date);
   void serve_until(Picoseconds date, bool inclusive) const;
@@ -121,8 +121,9 @@ class Memory : public sc_core::sc_module, private MemoryService {
   const std::unique_ptr<MemoryScheduler> scheduler_;
   std::unique_ptr<std::uint8_t, Free> bytes_;
   MemoryQueues queues_;
-  mutable std::vector<Port> ports_;  // decisions are made late, at the latest when the statistics are read
-  Ring<Answer> answers_;             // not given yet, in the order of decisions
+  mutable std::vector<AnswerPort>
+      ports_;             // decisions are made late, at the latest when the statistics are read
+  Ring<Answer> answers_;  // not given yet, in the order of decisions
   sc_core::sc_event wake_;
   Picoseconds wake_date_ = kNever;  // it has been notified for
   std::size_t held_ = 0;            // answers that wait for an END_RESP, on all ports

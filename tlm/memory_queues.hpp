@@ -51,7 +51,7 @@ class MemoryQueues {
   const MemoryRequest& head(std::size_t port) const { return ports_[port].queue.front(); }
   /// When the second request of the queue has arrived or will, or kNever; one that is refused counts.
   Picoseconds second_arrival(std::size_t port) const {
-    const Port& p = ports_[port];
+    const PortQueue& p = ports_[port];
     return p.queue.size() > 1             ? p.queue[1].arrival
            : p.refused.payload != nullptr ? p.refused.arrival
                                           : kNever;
@@ -79,7 +79,7 @@ class MemoryQueues {
 
   /// The first request leaves its queue at `date`; one that was refused gets its slot.
   MemoryRequest pop(std::size_t id, Picoseconds date) {
-    Port& port = ports_[id];
+    PortQueue& port = ports_[id];
     const MemoryRequest request = port.queue.front();
     port.queue.pop_front();
     --waiting_;
@@ -98,11 +98,11 @@ class MemoryQueues {
   bool any_newly_taken() const { return !taken_.empty(); }
 
  private:
-  struct Port {
+  struct PortQueue {
     Ring<MemoryRequest> queue;
     MemoryRequest refused;  // BEGIN_REQ not answered with END_REQ yet
   };
-  std::vector<Port> ports_;
+  std::vector<PortQueue> ports_;
   std::vector<Picoseconds> arrivals_;
   std::size_t waiting_ = 0;  // in all queues
   std::size_t refused_ = 0;  // on all ports

@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "tlm/units.hpp"
+
 namespace parallax {
 
 /// How full a FIFO was, for how long: cycles of the writer's clock at each fill level. A FIFO of up to 64
@@ -42,10 +44,7 @@ class Occupancy {
     return sum;
   }
   /// Tokens held, on average over total(); 0 before anything happened.
-  double mean() const {
-    const std::uint64_t time = total();
-    return time == 0 ? 0.0 : static_cast<double>(level_cycles_) / static_cast<double>(time);
-  }
+  double mean() const { return quotient(level_cycles_, total()); }
 
  private:
   std::uint64_t depth_;

@@ -8,7 +8,7 @@ namespace parallax {
 const char* name_of(StageActivity activity) {
   static constexpr std::array<const char*, kAllStageActivities.size()> kNames{
       "busy", "starved", "blocked", "memory", "synchroniser", "blanking"};
-  return kNames.at(static_cast<std::size_t>(activity));
+  return kNames.at(index_of(activity));
 }
 
 StageStatistics& StageStatistics::add(const StageStatistics& o, std::int64_t times) {

@@ -42,8 +42,8 @@ struct StageStatistics {
   Cycles blanking;
 
   Cycles total() const { return busy + starved + blocked + memory + synchroniser + blanking; }
-  Cycles& of(StageActivity activity) { return this->*kParts[static_cast<std::size_t>(activity)]; }
-  Cycles of(StageActivity activity) const { return this->*kParts[static_cast<std::size_t>(activity)]; }
+  Cycles& of(StageActivity activity) { return this->*kParts[index_of(activity)]; }
+  Cycles of(StageActivity activity) const { return this->*kParts[index_of(activity)]; }
   StageStatistics& operator-=(const StageStatistics& o) { return add(o, -1); }
   /// Adds `times` times the other's counts.
   StageStatistics& add(const StageStatistics& o, std::int64_t times);

@@ -73,7 +73,7 @@ class Tap final : private StreamListener, private RowListener<T> {
  private:
   void row(const StreamBase&, const T* values, std::size_t size) override {
     if (first_ != 0 && values_.size() + size > values_.capacity()) {
-      values_.erase(values_.begin(), values_.begin() + static_cast<std::ptrdiff_t>(first_));
+      values_.erase(values_.begin(), values_.begin() + first_);
       first_ = 0;
     }
     values_.insert(values_.end(), values, values + size);

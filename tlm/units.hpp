@@ -7,6 +7,18 @@
 
 namespace parallax {
 
+/// part / whole as real numbers, of counts as of measures; 0 where the whole is 0.
+template <class Part, class Whole>
+constexpr double quotient(Part part, Whole whole) {
+  return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
+}
+
+/// The number of an enumerator, counted from 0 as in an array with an element for each.
+template <class Enum>
+constexpr std::size_t index_of(Enum enumerator) {
+  return static_cast<std::size_t>(enumerator);
+}
+
 /// An integer with a unit: two quantities of different units neither add nor compare.
 template <class Tag>
 class Quantity {

@@ -74,9 +74,7 @@ class DateOrder final : public TraceSink {
   static Picoseconds date_of(const FifoSpan& span) { return span.end; }
   static Picoseconds date_of(const PortRow& row) { return row.end; }
   static Picoseconds date_of(const Step& step) { return step.time; }
-  static Picoseconds date_of(const FrameRecord& record) {
-    return record.at[static_cast<std::size_t>(FrameStep::kAtHost)];
-  }
+  static Picoseconds date_of(const FrameRecord& record) { return record.at[index_of(FrameStep::kAtHost)]; }
   static Picoseconds date_of(const StageFiring& firing) { return firing.start; }
   static Picoseconds date_of(const TokenTransfer& token) { return token.begin; }
   static Picoseconds date_of(const PortRequests& requests) { return requests.time; }
@@ -93,7 +91,7 @@ class DateOrder final : public TraceSink {
   static void tell(TraceSink& sink, const PortRequests& requests) { sink.requests(requests); }
   static void tell(TraceSink& sink, const BurstTransfer& burst) { sink.burst(burst); }
 
-  static std::size_t index(PartId part) { return static_cast<std::size_t>(part); }
+  static std::size_t index(PartId part) { return part; }
   template <class Event>
   EventLane<Event>* add_lane();
 

@@ -19,7 +19,7 @@ void FifoTrace::sample() {
   if (fill.until <= last.until) return;
   const Picoseconds begin = last_date_;
   const Picoseconds end = stream_.writer_clock().date_of(fill.until);
-  const auto cycles = static_cast<std::uint64_t>((fill.until - last.until).count());
+  const std::uint64_t cycles = (fill.until - last.until).count();
   const std::uint64_t token_cycles = fill.token_cycles - last.token_cycles;
   const std::uint64_t full_cycles = fill.full_cycles - last.full_cycles;
   const std::uint64_t empty_cycles = fill.empty_cycles - last.empty_cycles;

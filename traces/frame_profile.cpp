@@ -12,7 +12,7 @@ constexpr std::size_t kBins = 200;
 
 void FrameProfile::port_row(const PortRow& row) {
   rows_.push_back(row);
-  if (parts_.ports[static_cast<std::size_t>(row.port)].name != by_row_) return;
+  if (parts_.ports[row.port].name != by_row_) return;
   if (!frame_.empty() && frame_.back().position.frame != row.position.frame) {
     whole_frame_.swap(frame_);
     frame_.clear();
@@ -30,19 +30,19 @@ void FrameProfile::frame_step(std::int64_t, FrameStep step, Picoseconds time) {
 
 nlohmann::ordered_json FrameProfile::to_json() const {
   if (begin_ < Picoseconds(0)) return nullptr;
-  const double period = static_cast<double>((end_ - begin_).count());
+  const double period = (end_ - begin_).real();
   const double bin = period / static_cast<double>(kBins);
   std::vector<std::vector<double>> bytes(parts_.ports.size(), std::vector<double>(kBins));
   for (const PortRow& row : last_) {
     // Spread over the time in which they came; what began in the period before counts here from its begin on.
-    const double from = std::max(0.0, static_cast<double>((row.begin - begin_).count()));
-    const double to = std::min(period, std::max(from, static_cast<double>((row.end - begin_).count())));
+    const double from = std::max(0.0, (row.begin - begin_).real());
+    const double to = std::min(period, std::max(from, (row.end - begin_).real()));
     auto number = static_cast<std::size_t>(from / bin);
     for (; number < kBins && static_cast<double>(number) * bin <= to; ++number) {
       const double low = std::max(from, static_cast<double>(number) * bin);
       const double high = std::min(to, static_cast<double>(number + 1) * bin);
       const double share = to > from ? std::max(0.0, high - low) / (to - from) : 1;
-      bytes[static_cast<std::size_t>(row.port)][number] += static_cast<double>(row.bytes) * share;
+      bytes[row.port][number] += static_cast<double>(row.bytes) * share;
     }
   }
   auto rows = nlohmann::ordered_json::object();

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <initializer_list>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include "traces/metrics.hpp"
@@ -48,6 +50,11 @@ class MetricWriter {
   MetricWriter over(std::string window) const;
 
   void add(std::string_view path, MetricValue value) const;
+  /// A count, below 2^63; of this type and no other, so that nothing is rounded to it.
+  template <class Count, class = std::enable_if_t<std::is_same_v<Count, std::uint64_t>>>
+  void add(std::string_view path, Count count) const {
+    add(path, MetricValue(static_cast<std::int64_t>(count)));
+  }
 
  private:
   MetricGroup& root_;

@@ -54,6 +54,7 @@ class PerfettoEvent {
   void name(std::uint64_t number) { add(perfetto_field::kNameNumber, number); }
   void flow(std::uint64_t id) { add_fixed(perfetto_field::kFlow, id); }
   void counter(std::int64_t value) { add(perfetto_field::kCounterValue, value); }
+  void counter(std::uint64_t value) { counter(static_cast<std::int64_t>(value)); }
   void counter(double value) {
     std::uint64_t bits = 0;
     static_assert(sizeof bits == sizeof value);

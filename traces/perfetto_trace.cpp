@@ -91,8 +91,8 @@ constexpr std::string_view kArgumentNames[] = {"busy_cycles",
                                                "first_disparity_ps",
                                                "last_disparity_ps"};
 
-std::uint64_t name_number(StageActivity activity) { return kBusy + static_cast<std::uint64_t>(activity); }
-std::string_view title_of(StageActivity activity) { return kEventNames[static_cast<std::size_t>(activity)]; }
+std::uint64_t name_number(StageActivity activity) { return kBusy + index_of(activity); }
+std::string_view title_of(StageActivity activity) { return kEventNames[index_of(activity)]; }
 
 }  // namespace
 
@@ -172,7 +172,7 @@ void PerfettoTrace::begin(const TraceParts& parts) {
 
 std::uint64_t PerfettoTrace::row_name(const TracePosition& position, bool draining) {
   std::vector<std::uint64_t>& numbers = row_names_[draining ? 1 : 0];
-  const auto row = static_cast<std::size_t>(position.row);
+  const std::size_t row = position.row;
   if (row >= numbers.size()) numbers.resize(row + 1);
   if (numbers[row] == 0) {
     numbers[row] =
@@ -184,7 +184,7 @@ std::uint64_t PerfettoTrace::row_name(const TracePosition& position, bool draini
 // A row of a frame has one number, wherever it is.
 std::uint64_t PerfettoTrace::flow(const TracePosition& position, std::int32_t row) const {
   const std::int64_t tile = position.frame * parts_.tiles + position.tile;
-  return static_cast<std::uint64_t>(tile * parts_.rows + row + 1);
+  return tile * parts_.rows + row + 1;
 }
 
 PerfettoTrace::Track PerfettoTrace::lane(Lanes& lanes, Picoseconds begin, Picoseconds end) {
@@ -208,14 +208,14 @@ void PerfettoTrace::wait(Track track, Picoseconds begin, Picoseconds end, StageA
   {
     PerfettoEvent event(out_, begin, Type::kSliceBegin, track);
     event.name(name_number(activity));
-    if (stream != kNoPart) event.argument(kAt, parts_.streams[static_cast<std::size_t>(stream)].name);
+    if (stream != kNoPart) event.argument(kAt, parts_.streams[stream].name);
   }
   slice_end(track, end);
 }
 
 void PerfettoTrace::row_begins(const RowBegin& row) {
   const std::uint64_t name = row_name(row.position, row.draining);
-  PerfettoEvent event(out_, row.begin, Type::kSliceBegin, stages_[static_cast<std::size_t>(row.stage)]);
+  PerfettoEvent event(out_, row.begin, Type::kSliceBegin, stages_[row.stage]);
   event.name(name);
   event.flow(flow(row.position, row.position.row));
   if (row.row_written >= 0 && row.row_written != row.position.row)
@@ -227,20 +227,19 @@ void PerfettoTrace::row_begins(const RowBegin& row) {
 }
 
 void PerfettoTrace::row(const StageRow& row) {
-  const Track track = stages_[static_cast<std::size_t>(row.stage)];
+  const Track track = stages_[row.stage];
   {
     PerfettoEvent event(out_, row.busy_until, Type::kSliceEnd, track);
-    event.argument(kFirings, static_cast<std::int64_t>(row.time.firings));
+    event.argument(kFirings, row.time.firings);
     // Of the row and of the wait after it, so that a stage's numbers are the sums over its rows.
     for (const StageActivity activity : kAllStageActivities) {
       const Cycles cycles = row.time.of(activity);
-      if (cycles > Cycles(0))
-        event.argument(kBusyCycles + static_cast<std::uint64_t>(activity), cycles.count());
+      if (cycles > Cycles(0)) event.argument(kBusyCycles + index_of(activity), cycles.count());
     }
     if (row.longest_wait != StageActivity::kBusy) {
       event.argument(kWaitedFor, title_of(row.longest_wait));
       if (row.longest_at != kNoPart) {
-        event.argument(kAt, parts_.streams[static_cast<std::size_t>(row.longest_at)].name);
+        event.argument(kAt, parts_.streams[row.longest_at].name);
       }
     }
   }
@@ -250,22 +249,21 @@ void PerfettoTrace::row(const StageRow& row) {
 
 void PerfettoTrace::firing(const StageFiring& firing) {
   // The waits before a row's first firing are told with the row before.
-  slice(stages_[static_cast<std::size_t>(firing.stage)], firing.start, firing.end,
+  slice(stages_[firing.stage], firing.start, firing.end,
         firing.work == StageActivity::kBlanking ? kOverhead : kFiring);
 }
 
 void PerfettoTrace::fifo(const FifoSpan& span) {
-  if (!parts_.tokens) counter(fifo_counters_[static_cast<std::size_t>(span.stream)], span.begin, span.mean());
+  if (!parts_.tokens) counter(fifo_counters_[span.stream], span.begin, span.mean());
 }
 
 void PerfettoTrace::token(const TokenTransfer& token) {
   // What a register shows after the cycle.
-  counter(fifo_counters_[static_cast<std::size_t>(token.stream)], token.end,
-          static_cast<std::int64_t>(token.level));
+  counter(fifo_counters_[token.stream], token.end, token.level);
 }
 
 void PerfettoTrace::port_row(const PortRow& row) {
-  const auto port = static_cast<std::size_t>(row.port);
+  const std::size_t port = row.port;
   const std::uint64_t name = row_name(row.position, false);
   {
     PerfettoEvent event(out_, row.begin, Type::kSliceBegin, ports_[port]);
@@ -273,8 +271,8 @@ void PerfettoTrace::port_row(const PortRow& row) {
     event.flow(flow(row.position, row.position.row));
     event.argument(kFrame, row.position.frame + 1);
     event.argument(kRow, row.position.row);
-    event.argument(kBytes, static_cast<std::int64_t>(row.bytes));
-    event.argument(kBursts, static_cast<std::int64_t>(row.bursts));
+    event.argument(kBytes, row.bytes);
+    event.argument(kBursts, row.bursts);
     event.argument(kLatencyMean,
                    row.bursts == 0 ? 0 : row.latency.count() / static_cast<std::int64_t>(row.bursts));
     event.argument(kLatencyLongest, row.longest_latency.count());
@@ -283,28 +281,28 @@ void PerfettoTrace::port_row(const PortRow& row) {
   if (row.begin > rate_until_[port]) counter(rate_counters_[port], rate_until_[port], 0.0);
   if (row.end > row.begin) {
     counter(rate_counters_[port], row.begin,
-            static_cast<double>(row.bytes) * 1e6 / static_cast<double>((row.end - row.begin).count()));
+            static_cast<double>(row.bytes) * 1e6 / (row.end - row.begin).real());
   }
   rate_until_[port] = row.end;
 }
 
 void PerfettoTrace::requests(const PortRequests& requests) {
-  counter(request_counters_[static_cast<std::size_t>(requests.port)], requests.time, requests.under_way);
+  counter(request_counters_[requests.port], requests.time, requests.under_way);
 }
 
 void PerfettoTrace::burst(const BurstTransfer& burst) {
-  const Track track = lane(bursts_[static_cast<std::size_t>(burst.port)], burst.requested, burst.answered);
+  const Track track = lane(bursts_[burst.port], burst.requested, burst.answered);
   {
     PerfettoEvent event(out_, burst.requested, Type::kSliceBegin, track);
     event.name(burst.write ? kWrite : kRead);
-    event.argument(kAddress, static_cast<std::int64_t>(burst.address));
-    event.argument(kBytes, static_cast<std::int64_t>(burst.bytes));
+    event.argument(kAddress, burst.address);
+    event.argument(kBytes, burst.bytes);
   }
   slice_end(track, burst.answered);
 }
 
 void PerfettoTrace::frame(const FrameRecord& record) {
-  const auto at = [&record](FrameStep step) { return record.at[static_cast<std::size_t>(step)]; };
+  const auto at = [&record](FrameStep step) { return record.at[index_of(step)]; };
   const Track track = lane(frames_, at(FrameStep::kExposed), at(FrameStep::kAtHost));
   const std::uint64_t name =
       intern(field::kEventNames, ++last_event_name_, fmt::format("frame {}", record.frame + 1));

@@ -6,9 +6,7 @@
 namespace parallax {
 namespace {
 
-Picoseconds date(const sc_core::sc_time& time) {
-  return Picoseconds(static_cast<std::int64_t>(time.value()));
-}
+Picoseconds date(const sc_core::sc_time& time) { return Picoseconds(time.value()); }
 
 }  // namespace
 

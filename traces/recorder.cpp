@@ -12,13 +12,13 @@ Picoseconds now() { return Picoseconds(sc_core::sc_time_stamp().value()); }
 }  // namespace
 
 Recorder::Recorder(const sc_core::sc_module_name& name, const RecorderConfig& config, Dataflow& dataflow,
-                   Pace& pace, std::function<void()> add_parts)
+                   SamplingTimer& timer, std::function<void()> add_parts)
     : sc_module(name), config_(config), dataflow_(dataflow), add_parts_(std::move(add_parts)) {
   parts_.rows = config.rows;
   parts_.tiles = config.tiles;
   parts_.frames = config.frames;
   parts_.tokens = config.tokens;
-  pace.add(config.pace, [this] { go_on(); });
+  timer.add(config.period, [this] { go_on(); });
 }
 
 void Recorder::add(StreamBase& stream, const std::shared_ptr<const RowEnds>& rows) {

@@ -12,8 +12,8 @@
 
 #include "tlm/dataflow.hpp"
 #include "traces/fifo_trace.hpp"
-#include "traces/pace.hpp"
 #include "traces/port_trace.hpp"
+#include "traces/sampling_timer.hpp"
 #include "traces/stage_trace.hpp"
 #include "traces/token_trace.hpp"
 #include "traces/trace_window.hpp"
@@ -27,7 +27,7 @@ struct RecorderConfig {
   std::int32_t rows = 0;    ///< of the image
   std::int32_t tiles = 1;   ///< that a frame is processed in
   std::int64_t frames = 0;  ///< of the run
-  sc_core::sc_time pace;    ///< how often FIFOs are looked at, and sinks told
+  sc_core::sc_time timer;   ///< how often FIFOs are looked at, and sinks told
 };
 
 /// Listens to the parts that it is given and tells sinks what they do. A part that it is not given costs
@@ -39,8 +39,8 @@ struct RecorderConfig {
 class Recorder final : public sc_core::sc_module {
  public:
   /// `add_parts` is called when all ports are bound, before the simulation starts.
-  Recorder(const sc_core::sc_module_name& name, const RecorderConfig& config, Dataflow& dataflow, Pace& pace,
-           std::function<void()> add_parts);
+  Recorder(const sc_core::sc_module_name& name, const RecorderConfig& config, Dataflow& dataflow,
+           SamplingTimer& timer, std::function<void()> add_parts);
 
   /// `rows`: of the tokens; none when they belong to no row.
   void add(StreamBase& stream, const std::shared_ptr<const RowEnds>& rows);

@@ -12,7 +12,7 @@ constexpr std::uint64_t kNone = std::numeric_limits<std::uint64_t>::max();
 // What passes one port, row by row.
 class PortRows {
  public:
-  explicit PortRows(const std::optional<StagePorts::Port>& port) : port_(port) {}
+  explicit PortRows(const std::optional<StagePorts::RowPort>& port) : port_(port) {}
 
   PortMask mask() const { return port_ ? static_cast<PortMask>(1u << port_->number) : PortMask{0}; }
   bool over() const { return !port_ || row_ == port_->rows->ends.size(); }
@@ -30,7 +30,7 @@ class PortRows {
   }
 
  private:
-  const std::optional<StagePorts::Port>& port_;
+  const std::optional<StagePorts::RowPort>& port_;
   std::size_t row_ = 0;
   std::uint64_t at_ = 0;
   std::int32_t row_of_last_ = -1;

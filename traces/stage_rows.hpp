@@ -13,12 +13,12 @@ namespace parallax {
 
 /// By which of its ports a stage's rows are counted. One that has no port with rows is one row.
 struct StagePorts {
-  struct Port {
+  struct RowPort {
     unsigned number = 0;
     std::shared_ptr<const RowEnds> rows;  ///< of one pass of the stage's schedule
   };
-  std::optional<Port> read;
-  std::optional<Port> written;
+  std::optional<RowPort> read;
+  std::optional<RowPort> written;
   std::int64_t passes = 1;  ///< of the schedule, for one frame: one for each tile, or one for all
 };
 

@@ -42,8 +42,7 @@ void StageTrace::repeated(const Stage&, const std::vector<FiringDates>& period, 
   if (in_row_ && !wants_firings_ && times * period.size() < until_next_row()) {
     add_periods(period, times);
     firing_ += times * period.size();
-    free_ = period.back().start + Cycles(period.back().interval) + later +
-            every * static_cast<std::int64_t>(times - 1);
+    free_ = period.back().start + Cycles(period.back().interval) + later + every * (times - 1);
     wait_for_row();
     return;
   }
@@ -52,7 +51,7 @@ void StageTrace::repeated(const Stage&, const std::vector<FiringDates>& period, 
     const std::uint64_t left = until_next_row();
     const std::uint64_t possible = times * period.size() <= left ? times : left / period.size();
     const std::uint64_t periods = in_row_ ? possible : 0;
-    const Cycles until = later + every * static_cast<std::int64_t>(periods);
+    const Cycles until = later + every * periods;
     const bool one_by_one =
         wants_firings_ && window_.contains(current_.position, date(period.front().free + later),
                                            date(period.back().start + until));
@@ -60,7 +59,7 @@ void StageTrace::repeated(const Stage&, const std::vector<FiringDates>& period, 
     if (whole > 0) {
       add_periods(period, whole);
       firing_ += whole * period.size();
-      later += every * static_cast<std::int64_t>(whole);
+      later += every * whole;
       free_ = period.back().start + Cycles(period.back().interval) + later - every;
       times -= whole;
       if (until_next_row() == 0) in_row_ = false;
@@ -143,7 +142,7 @@ void StageTrace::add_periods(const std::vector<FiringDates>& period, std::uint64
       ++period_.time.firings;
     }
   }
-  period_.times += static_cast<std::int64_t>(times);
+  period_.times += times;
 }
 
 void StageTrace::count_periods() {

@@ -58,7 +58,7 @@ void TokenTrace::Side::pass_again(const std::vector<Cycles>& period, Cycles ever
     before = std::min(before, times);
     if (before > 0) {
       count(before * size);
-      later += every * static_cast<std::int64_t>(before);
+      later += every * before;
       times -= before;
       continue;
     }

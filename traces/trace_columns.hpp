@@ -15,7 +15,7 @@ namespace parallax::trace_columns {
 /// Of a part; empty for kNoPart.
 template <class Part>
 std::string_view name_of(const std::vector<Part>& parts, PartId id) {
-  return id == kNoPart ? std::string_view("") : parts[static_cast<std::size_t>(id)].name;
+  return id == kNoPart ? std::string_view("") : parts[id].name;
 }
 
 template <class Row>
@@ -36,7 +36,7 @@ void put(Row& row, const TraceParts& parts, const StageRow& event) {
   row.date("busy_until_ps", event.busy_until);
   row.date("inputs_until_ps", event.inputs_until);
   row.date("end_ps", event.end);
-  row.number("firings", static_cast<std::int64_t>(event.time.firings));
+  row.number("firings", event.time.firings);
   row.number("busy", event.time.busy.count());
   row.number("starved", event.time.starved.count());
   row.number("blocked", event.time.blocked.count());
@@ -53,13 +53,13 @@ void put(Row& row, const TraceParts& parts, const FifoSpan& event) {
   row.text("stream", name_of(parts.streams, event.stream));
   row.date("begin_ps", event.begin);
   row.date("end_ps", event.end);
-  row.number("cycles", static_cast<std::int64_t>(event.cycles));
-  row.number("token_cycles", static_cast<std::int64_t>(event.token_cycles));
-  row.number("full_cycles", static_cast<std::int64_t>(event.full_cycles));
-  row.number("empty_cycles", static_cast<std::int64_t>(event.empty_cycles));
-  row.number("written", static_cast<std::int64_t>(event.written));
-  row.number("freed", static_cast<std::int64_t>(event.freed));
-  row.number("level", static_cast<std::int64_t>(event.level));
+  row.number("cycles", event.cycles);
+  row.number("token_cycles", event.token_cycles);
+  row.number("full_cycles", event.full_cycles);
+  row.number("empty_cycles", event.empty_cycles);
+  row.number("written", event.written);
+  row.number("freed", event.freed);
+  row.number("level", event.level);
 }
 
 constexpr std::string_view table_of(const PortRow&) { return "ports"; }
@@ -69,8 +69,8 @@ void put(Row& row, const TraceParts& parts, const PortRow& event) {
   put_position(row, event.position);
   row.date("begin_ps", event.begin);
   row.date("end_ps", event.end);
-  row.number("bytes", static_cast<std::int64_t>(event.bytes));
-  row.number("bursts", static_cast<std::int64_t>(event.bursts));
+  row.number("bytes", event.bytes);
+  row.number("bursts", event.bursts);
   row.number("latency_sum_ps", event.latency.count());
   row.number("latency_longest_ps", event.longest_latency.count());
 }
@@ -78,7 +78,7 @@ void put(Row& row, const TraceParts& parts, const PortRow& event) {
 constexpr std::string_view table_of(const FrameRecord&) { return "frames"; }
 template <class Row>
 void put(Row& row, const TraceParts&, const FrameRecord& event) {
-  const auto at = [&event](FrameStep step) { return event.at[static_cast<std::size_t>(step)]; };
+  const auto at = [&event](FrameStep step) { return event.at[index_of(step)]; };
   row.number("frame", event.frame + 1);
   row.date("exposed_ps", at(FrameStep::kExposed));
   row.date("first_byte_ps", at(FrameStep::kFirstByte));
@@ -116,7 +116,7 @@ void put(Row& row, const TraceParts& parts, const TokenTransfer& event) {
   put_position(row, event.position);
   row.date("begin_ps", event.begin);
   row.date("end_ps", event.end);
-  row.number("level", static_cast<std::int64_t>(event.level));
+  row.number("level", event.level);
 }
 
 constexpr std::string_view table_of(const BurstTransfer&) { return "bursts"; }
@@ -125,8 +125,8 @@ void put(Row& row, const TraceParts& parts, const BurstTransfer& event) {
   row.text("port", name_of(parts.ports, event.port));
   put_position(row, event.position);
   row.text("command", event.write ? "write" : "read");
-  row.number("address", static_cast<std::int64_t>(event.address));
-  row.number("bytes", static_cast<std::int64_t>(event.bytes));
+  row.number("address", event.address);
+  row.number("bytes", event.bytes);
   row.date("requested_ps", event.requested);
   row.date("answered_ps", event.answered);
 }

@@ -9,7 +9,7 @@ const char* name_of(FrameStep step) {
   static constexpr std::array<const char*, kFrameSteps> kNames{
       "exposed",         "first_byte",     "in_memory",         "core_started",
       "first_disparity", "last_disparity", "results_in_memory", "at_host"};
-  return kNames.at(static_cast<std::size_t>(step));
+  return kNames.at(index_of(step));
 }
 
 }  // namespace parallax

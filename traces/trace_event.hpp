@@ -102,9 +102,7 @@ struct FifoSpan {
   std::uint64_t freed = 0;    ///< slots in it
   std::uint64_t level = 0;    ///< tokens held at the end
 
-  double mean() const {
-    return cycles == 0 ? 0 : static_cast<double>(token_cycles) / static_cast<double>(cycles);
-  }
+  double mean() const { return quotient(token_cycles, cycles); }
 };
 
 /// A token that is written to a stream or read from it, in the cycle that begins at `begin`.

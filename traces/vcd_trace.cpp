@@ -71,7 +71,7 @@ void VcdTrace::begin(const TraceParts& parts) {
     ports_.push_back({declare(port.path, "row", kNumberBits), declare(port.path, "requests", kNumberBits)});
   }
   for (const FrameStep step : kTold) {
-    steps_[static_cast<std::size_t>(step)] = declare("frames", name_of(step), kNumberBits);
+    steps_[index_of(step)] = declare("frames", name_of(step), kNumberBits);
   }
   std::stable_sort(declarations_.begin(), declarations_.end(),
                    [](const auto& a, const auto& b) { return parts_of(a.first) < parts_of(b.first); });
@@ -171,57 +171,55 @@ void VcdTrace::change_later(Picoseconds time, SignalId signal, std::int64_t valu
 }
 
 void VcdTrace::row_begins(const RowBegin& row) {
-  const StageSignals& stage = stages_[static_cast<std::size_t>(row.stage)];
+  const StageSignals& stage = stages_[row.stage];
   change(row.begin, stage.frame, row.position.frame + 1);
   change(row.begin, stage.row, row.position.row);
-  if (!parts_.tokens) change(row.begin, stage.state, static_cast<std::int64_t>(StageActivity::kBusy));
+  if (!parts_.tokens) change(row.begin, stage.state, index_of(StageActivity::kBusy));
 }
 
 void VcdTrace::row(const StageRow& row) {
   if (parts_.tokens) return;
-  const StageSignals& stage = stages_[static_cast<std::size_t>(row.stage)];
+  const StageSignals& stage = stages_[row.stage];
   change(row.end, stage.state, kIdle);
-  change(row.end, stage.waited, static_cast<std::int64_t>(row.longest_wait));
+  change(row.end, stage.waited, index_of(row.longest_wait));
 }
 
 void VcdTrace::fifo(const FifoSpan& span) {
   if (parts_.tokens) return;
-  const StreamSignals& stream = streams_[static_cast<std::size_t>(span.stream)];
+  const StreamSignals& stream = streams_[span.stream];
   const Picoseconds now = std::max(span.end, Picoseconds(time_));  // spans may come late
   change(now, stream.write, span.written > 0 ? 1 : 0);
   change(now, stream.read, span.freed > 0 ? 1 : 0);
-  change(now, stream.level, static_cast<std::int64_t>(span.level));
+  change(now, stream.level, span.level);
 }
 
-void VcdTrace::port_row(const PortRow& row) {
-  change(row.end, ports_[static_cast<std::size_t>(row.port)].row, row.position.row);
-}
+void VcdTrace::port_row(const PortRow& row) { change(row.end, ports_[row.port].row, row.position.row); }
 
 void VcdTrace::frame_step(std::int64_t frame, FrameStep step, Picoseconds time) {
-  change(time, steps_[static_cast<std::size_t>(step)], frame + 1);
+  change(time, steps_[index_of(step)], frame + 1);
 }
 
 void VcdTrace::firing(const StageFiring& firing) {
-  const StageSignals& stage = stages_[static_cast<std::size_t>(firing.stage)];
-  change(firing.start, stage.state, static_cast<std::int64_t>(firing.work));
+  const StageSignals& stage = stages_[firing.stage];
+  change(firing.start, stage.state, index_of(firing.work));
   change_later(firing.end, stage.state, kIdle);
   const bool for_input = firing.ready - firing.free >= firing.start - firing.ready;
   const StageActivity wait = firing.start == firing.free ? StageActivity::kBusy
                              : for_input                 ? firing.input_wait
                                                          : firing.room_wait;
-  change(firing.start, stage.waited, static_cast<std::int64_t>(wait));
+  change(firing.start, stage.waited, index_of(wait));
 }
 
 void VcdTrace::token(const TokenTransfer& token) {
-  const StreamSignals& stream = streams_[static_cast<std::size_t>(token.stream)];
+  const StreamSignals& stream = streams_[token.stream];
   const SignalId signal = token.read ? stream.read : stream.write;
   change(token.begin, signal, 1);
   change_later(token.end, signal, 0);
-  change_later(token.end, stream.level, static_cast<std::int64_t>(token.level));
+  change_later(token.end, stream.level, token.level);
 }
 
 void VcdTrace::requests(const PortRequests& requests) {
-  change(requests.time, ports_[static_cast<std::size_t>(requests.port)].requests, requests.under_way);
+  change(requests.time, ports_[requests.port].requests, requests.under_way);
 }
 
 void VcdTrace::end(Picoseconds time, const std::vector<EndlessWait>& waits) {
@@ -229,7 +227,7 @@ void VcdTrace::end(Picoseconds time, const std::vector<EndlessWait>& waits) {
     for (std::size_t stage = 0; stage < parts_.stages.size(); ++stage) {
       if (parts_.stages[stage].path != wait.waiter) continue;
       change(std::max(time, Picoseconds(time_)), stages_[stage].state,
-             static_cast<std::int64_t>(wait.on_full ? StageActivity::kBlocked : StageActivity::kStarved));
+             index_of(wait.on_full ? StageActivity::kBlocked : StageActivity::kStarved));
     }
   }
   advance(std::max(time.count(), time_));

@@ -75,8 +75,7 @@ int replay_trace(const MemoryOptions& options, CommandContext& context) {
         "parallax: note: {} of {} requests reach beyond the devices' {} bytes and begin anew there\n", beyond,
         trace.size(), timing.bytes());
   }
-  const ReplayResult result =
-      replay(trace, timing, policy, mapping->second, static_cast<std::size_t>(options.window));
+  const ReplayResult result = replay(trace, timing, policy, mapping->second, options.window);
   const MetricGroup metrics = measure(result, timing);
   if (options.json) {
     context.out << to_json(metrics).dump(2) << '\n';

@@ -59,9 +59,10 @@ class Run {
     if (options_.verdict || options_.report)
       trials_.emplace(options_.configuration, timing_input(), context_, interruption_);
     const Machine machine("machine", configuration_.machine, machine_input(simulation, writer));
-    Pace pace("pace");
-    if (folder_) profile_ = std::make_unique<RunProfile>(machine, pace);
-    if (options_.trace.wanted()) tracing_ = std::make_unique<Tracing>(trace_choice_, machine, pace, *folder_);
+    SamplingTimer timer("sampling_timer");
+    if (folder_) profile_ = std::make_unique<RunProfile>(machine, timer);
+    if (options_.trace.wanted())
+      tracing_ = std::make_unique<Tracing>(trace_choice_, machine, timer, *folder_);
     notes_.begin();
     simulation.run();
     progress_.reset();

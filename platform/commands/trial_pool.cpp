@@ -42,8 +42,7 @@ std::vector<EvaluationResult> TrialPool::evaluate(const std::vector<Variant>& va
 std::vector<EvaluationResult> TrialPool::try_out(const std::vector<Relaxation>& relaxations) {
   std::vector<Variant> variants;
   for (const Relaxation& relaxation : relaxations) variants.push_back({relaxation.assignments});
-  Progress progress(context_.err, shows_progress(context_), "limits",
-                    static_cast<std::int64_t>(variants.size()));
+  Progress progress(context_.err, shows_progress(context_), "limits", variants.size());
   return evaluate(variants, [&progress] { progress.advance(); });
 }
 

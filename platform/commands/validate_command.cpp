@@ -54,8 +54,7 @@ int validate(const ValidateOptions& options, CommandContext& context) {
   const std::vector<PublishedRow> rows = read_rows(options);
   const Interruption interruption;
   const auto interrupted = [&interruption] { return interruption.requested(); };
-  auto progress = std::make_unique<Progress>(context.err, shows_progress(context), "rows",
-                                             static_cast<std::int64_t>(rows.size()));
+  auto progress = std::make_unique<Progress>(context.err, shows_progress(context), "rows", rows.size());
   const std::vector<ValidatedRow> validated = validate_rows(
       rows, [&] { progress->advance(); }, interrupted);
   progress.reset();

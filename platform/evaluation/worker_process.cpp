@@ -31,7 +31,7 @@ bool transfer(Byte* bytes, std::size_t size, const Once& once) {
     if (count < 0 && errno == EINTR) continue;
     if (count <= 0) return false;
     bytes += count;
-    size -= static_cast<std::size_t>(count);
+    size -= count;
   }
   return true;
 }
@@ -130,7 +130,7 @@ WorkerProcess::State WorkerProcess::receive(int milliseconds) {
     die();
     return state_;
   }
-  received_.append(buffer.data(), static_cast<std::size_t>(count));
+  received_.append(buffer.data(), count);
   Length length = 0;
   if (received_.size() < sizeof length) return state_;
   std::memcpy(&length, received_.data(), sizeof length);

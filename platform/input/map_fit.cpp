@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "platform/input/raw_maps.hpp"
+#include "tlm/units.hpp"
 
 namespace parallax {
 
@@ -100,7 +101,7 @@ bool verify(Fit& fit, const OffsetRange& range) {
     count += outside(band.left_x, band.left_y, fit.calibration.size) +
              outside(band.right_x, band.right_y, fit.calibration.size);
   });
-  fit.outside = static_cast<double>(count) / (2.0 * static_cast<double>(found.pixels));
+  fit.outside = quotient(count, 2.0 * static_cast<double>(found.pixels));
   return found.fits();
 }
 

@@ -9,6 +9,7 @@
 
 #include "modules/map_decoder.hpp"
 #include "modules/map_file.hpp"
+#include "tlm/units.hpp"
 
 namespace parallax {
 
@@ -43,13 +44,13 @@ MapInfo inspect(const EncodedMap& encoded) {
   info.row_bytes = encoded.row_bytes;
   info.least_row = *std::min_element(info.row_bytes.begin(), info.row_bytes.end());
   info.largest_row = *std::max_element(info.row_bytes.begin(), info.row_bytes.end());
-  info.mean_row = static_cast<double>(info.stream_bytes) / info.height;
+  info.mean_row = quotient(info.stream_bytes, info.height);
   info.worst_row = worst_row_bytes(info.width, info.range);
   return info;
 }
 
 std::string MapInfo::text(bool rows) const {
-  const double worst = static_cast<double>(worst_row) / (2.0 * width);
+  const double worst = quotient(worst_row, 2.0 * width);
   std::string out = fmt::format(
       "size                    {}x{} px\n"
       "window                  {} px (-{}..+{}), {} fraction bits\n"
@@ -77,7 +78,7 @@ void to_json(nlohmann::json& json, const MapInfo& info) {
           {"stream_bytes", info.stream_bytes},
           {"file_bytes", info.file_bytes},
           {"bytes_per_pixel_and_image", info.bytes_per_pixel},
-          {"worst_case_bytes_per_pixel_and_image", static_cast<double>(info.worst_row) / (2.0 * info.width)},
+          {"worst_case_bytes_per_pixel_and_image", quotient(info.worst_row, 2.0 * info.width)},
           {"largest_offset_px", {{"left", pixels(info.left)}, {"right", pixels(info.right)}}},
           {"row_bytes",
            {{"least", info.least_row},

@@ -15,7 +15,7 @@ namespace parallax {
 namespace {
 
 std::int64_t row_bytes(const MachineConfig& config, const MachineInput& input) {
-  return static_cast<std::int64_t>(bytes_of(config.camera.format, static_cast<std::uint64_t>(input.width)));
+  return bytes_of(config.camera.format, input.width);
 }
 
 // A row takes its pixels and the blanking at the pixel clock, or as long as the cable needs for it.
@@ -62,7 +62,7 @@ Acquisition::Acquisition(const sc_core::sc_module_name& name, const MachineConfi
       until_fault_(config.camera.fault_every) {
   ports_[0].buffer = BufferKind::kLeft;
   ports_[1].buffer = BufferKind::kRight;
-  const auto bytes = static_cast<std::uint64_t>(row_bytes(config, input));
+  const std::uint64_t bytes = row_bytes(config, input);
   for (MemoryPort& port : ports_) {
     port.rows = std::make_shared<const RowEnds>(equal_rows(bytes, input.height, 1));
   }
@@ -221,8 +221,7 @@ void Acquisition::expose_next() {
 DmaJob Acquisition::image_job(std::uint64_t address, bool values, int rows) const {
   DmaJob job;
   job.address = address;
-  job.row_bytes.assign(static_cast<std::size_t>(rows),
-                       static_cast<std::uint32_t>(row_bytes(config_, input_)));
+  job.row_bytes.assign(rows, static_cast<std::uint32_t>(row_bytes(config_, input_)));
   job.values = values;
   return job;
 }
@@ -232,8 +231,8 @@ void Acquisition::expose(std::int64_t frame) {
   listener_.exposed(frame, images.left != nullptr);
   const std::function<void()> done = when_both([this] { frame_complete_.notify(); });
   const std::function<void()> enough = when_both([this, frame] { listener_.in_memory(frame); });
-  const auto early = static_cast<std::uint64_t>(config_.camera.early_start_rows);
-  const auto height = static_cast<std::uint64_t>(input_.height);
+  const std::uint64_t early = config_.camera.early_start_rows;
+  const std::uint64_t height = input_.height;
   const std::uint64_t waited_for = (early == 0 ? height : std::min(early, height)) *
                                    static_cast<std::uint64_t>(row_bytes(config_, input_));
   const auto start = [&](DmaWriter& dma, std::uint64_t address,

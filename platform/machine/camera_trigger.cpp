@@ -12,7 +12,7 @@ constexpr std::uint64_t kNano = 1'000'000'000;
 constexpr std::uint64_t kMicro = 1'000'000;
 
 Ratio cycles_a_frame(double rate, Hertz clock) {
-  const auto microframes = static_cast<std::uint64_t>(std::llround(rate * static_cast<double>(kMicro)));
+  const std::uint64_t microframes = std::llround(rate * static_cast<double>(kMicro));
   return {static_cast<std::uint64_t>(clock.count()) * kMicro, microframes};
 }
 

@@ -20,7 +20,7 @@ class CameraTrigger {
   /// End of the exposure of trigger `k` (>= 0).
   Cycles exposed(std::int64_t k) const;
   /// Shortest time between two triggers.
-  Cycles period() const { return Cycles(static_cast<std::int64_t>(period_.floor(1))); }
+  Cycles period() const { return Cycles(period_.floor(1)); }
 
  private:
   const Ratio period_;          // cycles a frame

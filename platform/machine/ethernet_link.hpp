@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "platform/config/link_config.hpp"
-#include "tlm/pacer.hpp"
+#include "tlm/cycle_accumulator.hpp"
 #include "tlm/stream.hpp"
 
 namespace parallax {
@@ -54,8 +54,8 @@ class EthernetLink final : public sc_core::sc_module, public Actor {
   const LinkConfig config_;
   const Bytes burst_;
   const ClockDomain& clock_;
-  Pacer wire_;  // cycles a wire byte
-  Pacer host_;  // cycles a payload byte
+  CycleAccumulator wire_;  // cycles a wire byte
+  CycleAccumulator host_;  // cycles a payload byte
   std::deque<LinkJob> jobs_;
   sc_core::sc_event go_on_;
   std::deque<std::uint8_t> bytes_;

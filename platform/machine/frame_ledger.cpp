@@ -15,7 +15,7 @@ constexpr std::size_t kRecords = 160;
 }  // namespace
 
 FrameLedger::FrameLedger(const MachineConfig& config, std::int64_t frames, StepListener listener)
-    : kept_(static_cast<std::size_t>(warm_up_frames(config)) + kRecords),
+    : kept_(warm_up_frames(config) + kRecords),
       listener_(std::move(listener)),
       latencies_(steady_first(config, frames)) {
   times_.keep(kept_);
@@ -30,7 +30,7 @@ void FrameLedger::exposed(bool values) {
   values_.push_back(values);
   times_.push_back({});
   times_.back().exposed = sc_core::sc_time_stamp();
-  tell(static_cast<std::int64_t>(times_.size()) - 1, FrameStep::kExposed);
+  tell(times_.size() - 1, FrameStep::kExposed);
 }
 
 void FrameLedger::first_byte(std::int64_t frame) {
@@ -63,7 +63,7 @@ void FrameLedger::at_host(std::int64_t frame) {
   FrameTimes& times = of(frame);
   times.at_host = sc_core::sc_time_stamp();
   tell(frame, FrameStep::kAtHost);
-  latencies_.add(static_cast<std::size_t>(frame), times);
+  latencies_.add(frame, times);
 }
 
 }  // namespace parallax

@@ -41,7 +41,7 @@ class FrameLedger {
   void at_host(std::int64_t frame);
   void add(const MachineSnapshot& snapshot) { snapshots_.push_back(snapshot); }
 
-  bool has_values(std::int64_t frame) const { return values_[static_cast<std::size_t>(frame)]; }
+  bool has_values(std::int64_t frame) const { return values_[frame]; }
   /// Of all frames that were exposed; the last ones may be unfinished.
   const KeptRecords<FrameTimes>& times() const { return times_; }
   /// One for each frame at the host, of that date.
@@ -52,7 +52,7 @@ class FrameLedger {
   std::size_t kept() const { return kept_; }
 
  private:
-  FrameTimes& of(std::int64_t frame) { return times_[static_cast<std::size_t>(frame)]; }
+  FrameTimes& of(std::int64_t frame) { return times_[frame]; }
   void tell(std::int64_t frame, FrameStep step) const;
 
   const std::size_t kept_;

@@ -10,8 +10,8 @@
 namespace parallax {
 
 void Host::expect(const Disparity* row) {
-  const auto width = static_cast<std::size_t>(input_.width);
-  const auto height = static_cast<std::size_t>(input_.height);
+  const std::size_t width = input_.width;
+  const std::size_t height = input_.height;
   leaving_.resize(width * height);
   const Tile& tile = tiles_.tiles[rows_ / height];
   std::copy(row + (tile.keep_begin - tile.begin), row + (tile.keep_end - tile.begin),
@@ -26,8 +26,8 @@ FrameResult Host::unpack(std::int64_t frame, const std::vector<std::uint8_t>& by
   FrameResult result;
   result.index = frame;
   if (bytes.empty()) return result;
-  const auto width = static_cast<std::size_t>(input_.width);
-  const auto height = static_cast<std::size_t>(input_.height);
+  const std::size_t width = input_.width;
+  const std::size_t height = input_.height;
   const std::size_t row_bytes = OutputPacking::row_bytes(input_.width, left_);
   std::vector<std::uint16_t> values(width);
   result.disparities = std::move(expected_.front());

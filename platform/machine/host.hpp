@@ -23,7 +23,7 @@ class Host final : public RowListener<Disparity> {
  public:
   /// `input` and `tiles` must outlive the object.
   Host(const MachineInput& input, const TilePlan& tiles, OutputLeft left)
-      : input_(input), tiles_(tiles), left_(left), disparity_rows_(static_cast<std::size_t>(tiles.width)) {}
+      : input_(input), tiles_(tiles), left_(left), disparity_rows_(tiles.width) {}
 
   /// The pipeline's next row of disparities, `tiles.width` px: of a frame, tile by tile, row by row.
   void expect(const Disparity* row);

@@ -54,7 +54,7 @@ std::shared_ptr<const RowEnds> MachineRows::of(const StreamBase& stream) const {
 StagePorts MachineRows::of(const StageInfo& info) const {
   StagePorts ports;
   ports.passes = info.passes;
-  const auto port = [&](const std::vector<const StreamBase*>& streams) -> std::optional<StagePorts::Port> {
+  const auto port = [&](const std::vector<const StreamBase*>& streams) -> std::optional<StagePorts::RowPort> {
     if (streams.empty() || streams.front() == map_words_) return std::nullopt;
     std::shared_ptr<const RowEnds> rows = of(*streams.front());
     if (!rows) return std::nullopt;
@@ -63,7 +63,7 @@ StagePorts MachineRows::of(const StageInfo& info) const {
       tile->ends.resize(rows->rows_of_a_tile);
       rows = tile;
     }
-    return StagePorts::Port{0, rows};
+    return StagePorts::RowPort{0, rows};
   };
   ports.read = port(info.stage->input_streams(0));
   ports.written = port(info.stage->output_streams(0));
@@ -74,7 +74,7 @@ StagePorts MachineRows::of(const StageInfo& info) const {
   if (!ports.read && !ports.written && !info.stage->output_streams(0).empty()) {
     // Words of the map: the one stage whose rows differ in length.
     if (const auto rows = of(*info.stage->output_streams(0).front()))
-      ports.written = StagePorts::Port{0, rows};
+      ports.written = StagePorts::RowPort{0, rows};
   }
   return ports;
 }

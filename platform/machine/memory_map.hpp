@@ -29,12 +29,8 @@ struct MemoryMap {
   std::uint64_t buffer = 0;            ///< MatcherStore, if anything is kept
 
   /// The buffers of a frame: they are used in turn.
-  const FrameBuffer& images(std::int64_t frame) const {
-    return frames[static_cast<std::size_t>(frame) % frames.size()];
-  }
-  std::uint64_t output(std::int64_t frame) const {
-    return outputs[static_cast<std::size_t>(frame) % outputs.size()];
-  }
+  const FrameBuffer& images(std::int64_t frame) const { return frames[frame % frames.size()]; }
+  std::uint64_t output(std::int64_t frame) const { return outputs[frame % outputs.size()]; }
   std::size_t number_of(BufferKind kind) const {
     return kind == BufferKind::kOutput ? outputs.size() : frames.size();
   }

@@ -27,10 +27,10 @@ PixelUnpackConfig image_bursts(const TilePlan& tiles, const StageContext& contex
                                const DmaPortConfig& port) {
   PixelUnpackConfig config;
   config.format = format;
-  config.width = static_cast<std::size_t>(context.width);
+  config.width = context.width;
   config.burst = Bytes(port.burst_bytes);
   const std::uint64_t row = bytes_of(format, config.width);
-  const auto rows = static_cast<std::uint64_t>(context.height);
+  const std::uint64_t rows = context.height;
   config.pieces = tiles.tiles.size() > 1 ? rows : 1;
   config.piece_bytes = row * rows / config.pieces;
   return config;

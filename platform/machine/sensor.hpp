@@ -84,9 +84,7 @@ class Sensor final : public sc_core::sc_module, public Actor {
   bool begin_image();
   void note_late_burst();
   bool has_come(Cycles cycle) const;
-  std::int64_t row_bytes() const {
-    return static_cast<std::int64_t>(bytes_of(config_.format, static_cast<std::uint64_t>(config_.width)));
-  }
+  std::int64_t row_bytes() const { return bytes_of(config_.format, config_.width); }
   std::int64_t image_bytes() const { return row_bytes() * (config_.height - lost_.count); }
   Cycles due(std::int64_t byte) const;
   void send(const SensorImage& image);

@@ -47,8 +47,8 @@ SteadyWindow steady_window(const Machine& machine) {
     return window;
   }
   window.first = steady_first(machine.config(), machine.input().frames);
-  window.period = (snapshots[window.last].time - snapshots[window.first].time).to_seconds() /
-                  static_cast<double>(window.frames());
+  window.period =
+      (snapshots[window.last].time - snapshots[window.first].time).to_seconds() / window.divisor();
   window.text = fmt::format("frames {} to {}", window.first + 2, window.last + 1);
   return window;
 }

@@ -34,6 +34,8 @@ struct SteadyWindow {
   std::string text;       ///< for reports
 
   std::size_t frames() const { return last - first; }
+  /// The number of frames to divide what is counted in the window by: a run's only frame has no window.
+  double divisor() const { return frames() == 0 ? 1.0 : static_cast<double>(frames()); }
 };
 
 /// All frames of a run after the warm-up; where the run is shorter than that, its last two. The host must

@@ -17,7 +17,7 @@ namespace parallax {
 namespace {
 
 std::vector<std::uint32_t> row_lengths(int rows, std::size_t bytes) {
-  return std::vector<std::uint32_t>(static_cast<std::size_t>(rows), static_cast<std::uint32_t>(bytes));
+  return std::vector<std::uint32_t>(rows, static_cast<std::uint32_t>(bytes));
 }
 
 // Rows, and those of tiles, must begin and end with a byte.
@@ -102,7 +102,7 @@ void StereoCore::start(const FrameCommand& command) {
 
 void StereoCore::start_input(std::int64_t frame, const FrameCommand& command) {
   const std::function<void()> read = when_both(hooks_.read);
-  const auto bytes = [this](int pixels) { return bytes_of(format_, static_cast<std::uint64_t>(pixels)); };
+  const auto bytes = [this](int pixels) { return bytes_of(format_, pixels); };
   const bool values = hooks_.has_values(frame);
   for (const Tile& tile : input_.tiles.tiles) {
     DmaJob image;
@@ -159,7 +159,7 @@ void StereoCore::start_output(std::int64_t frame, const FrameCommand& command) {
 void StereoCore::written(std::int64_t frame) {
   control_->frame_done();
   const StageInfo filter = pipeline_.last_filter();
-  const auto index = static_cast<std::size_t>(frame);
+  const std::size_t index = frame;
   hooks_.written(frame, {clock_.time_of(filter.first_pass(index).first_write),
                          clock_.time_of(filter.last_pass(index).last_write)});
 }

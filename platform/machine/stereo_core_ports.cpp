@@ -34,7 +34,7 @@ std::shared_ptr<const RowEnds> rows_of_tiles(const StoreLayout& layout, std::siz
 // Which buffers the ports fill and empty, and where rows end in their bytes.
 void StereoCore::describe_ports() {
   const std::vector<Tile>& tiles = input_.tiles.tiles;
-  const std::uint64_t image_row = bytes_of(format_, static_cast<std::uint64_t>(input_.tiles.width));
+  const std::uint64_t image_row = bytes_of(format_, input_.tiles.width);
   left_port_.buffer = BufferKind::kLeft;
   right_port_.buffer = BufferKind::kRight;
   output_port_.buffer = BufferKind::kOutput;
@@ -101,8 +101,8 @@ std::vector<Part> StereoCore::parts() const {
 }
 
 CoreFacts StereoCore::make_facts(const MachineConfig& config) const {
-  const auto rows = static_cast<std::uint64_t>(run_.height);
-  const std::uint64_t image_row = bytes_of(format_, static_cast<std::uint64_t>(run_.width));
+  const std::uint64_t rows = run_.height;
+  const std::uint64_t image_row = bytes_of(format_, run_.width);
   const std::uint64_t early = config.camera.early_start_rows;
   CoreFacts facts;
   facts.width = run_.width;
@@ -112,7 +112,7 @@ CoreFacts StereoCore::make_facts(const MachineConfig& config) const {
   facts.map_bytes = input_.map.bytes.size();
   facts.output_bytes = OutputPacking::row_bytes(run_.width, output_left_) * rows;
   facts.buffer_bytes = pipeline_.store().bytes();
-  facts.memory_bytes = static_cast<std::uint64_t>(config.memory.size_bytes);
+  facts.memory_bytes = config.memory.size_bytes;
   facts.left = {left_port_.master, config.dma.left.outstanding};
   facts.right = {right_port_.master, config.dma.right.outstanding};
   facts.map = {map_port_.master, config.dma.map.outstanding};

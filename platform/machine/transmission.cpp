@@ -38,7 +38,7 @@ std::vector<Part> Transmission::parts() const {
 void Transmission::send(std::int64_t frame, std::uint64_t address, bool values) {
   DmaJob job;
   job.address = address;
-  job.row_bytes.assign(static_cast<std::size_t>(input_.height), row_bytes_);
+  job.row_bytes.assign(input_.height, row_bytes_);
   job.values = values;
   if (enabled_) {
     input_.writer.lead(job, frame);

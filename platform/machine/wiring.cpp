@@ -25,7 +25,7 @@ std::size_t Wiring::index(const std::string& slot) const {
   const auto found =
       std::find_if(slots_.begin(), slots_.end(), [&](const auto& each) { return each->name == slot; });
   if (found == slots_.end()) throw std::logic_error(fmt::format("the pipeline has no slot {}", slot));
-  return static_cast<std::size_t>(found - slots_.begin());
+  return found - slots_.begin();
 }
 
 sc_core::sc_object& Wiring::port(const PortName& name) const {

@@ -62,15 +62,15 @@ ControlBlocks::Address ControlBlocks::address_of(const std::string& data) {
   return {dma(data + "_address_high", "address"), dma(data + "_address_low", "address")};
 }
 
-void ControlBlocks::show_fifo_on_read(const std::string& reg, const std::vector<CoreFacts::Port>& ports) {
-  std::uint32_t places = 0;
-  for (const CoreFacts::Port& port : ports) places += port.places;
+void ControlBlocks::show_fifo_on_read(const std::string& reg, const std::vector<CoreFacts::Master>& ports) {
+  std::uint32_t slots = 0;
+  for (const CoreFacts::Master& port : ports) slots += port.slots;
   bank.on_read("dma", reg,
-               [ports, places, under_way_field = dma(reg, "under_way"), places_field = dma(reg, "places")] {
+               [ports, slots, under_way_field = dma(reg, "under_way"), places_field = dma(reg, "places")] {
                  std::uint64_t under_way = 0;
-                 for (const CoreFacts::Port& port : ports) under_way += port.master->in_flight();
+                 for (const CoreFacts::Master& port : ports) under_way += port.master->in_flight();
                  under_way_field.set(static_cast<std::uint32_t>(under_way));
-                 places_field.set(places);
+                 places_field.set(slots);
                });
 }
 

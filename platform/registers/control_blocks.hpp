@@ -35,12 +35,12 @@ struct CoreFacts {
   std::uint64_t output_bytes = 0;
   std::uint64_t buffer_bytes = 0;  ///< 0: the matcher keeps nothing in memory
   std::uint64_t memory_bytes = 0;
-  struct Port {
+  struct Master {
     const BusMaster* master;
-    std::uint32_t places;  ///< requests that it may have under way
+    std::uint32_t slots;  ///< requests that it may have under way
   };
-  Port left, right, map, output;
-  std::vector<Port> buffer;
+  Master left, right, map, output;
+  std::vector<Master> buffer;
 };
 
 /// The core's two control blocks (register_map.hpp). A start is judged as a whole: what cannot be, sets error
@@ -77,7 +77,7 @@ class ControlBlocks final : public sc_core::sc_module {
   Field dma(const std::string& reg, const std::string& field) { return bank.field("dma", reg, field); }
   Field stereo(const std::string& reg, const std::string& field) { return bank.field("stereo", reg, field); }
   Address address_of(const std::string& data);
-  void show_fifo_on_read(const std::string& reg, const std::vector<CoreFacts::Port>& ports);
+  void show_fifo_on_read(const std::string& reg, const std::vector<CoreFacts::Master>& ports);
   void start(std::uint32_t triggers);
   bool judge_start();
   bool in_memory(const Address& address, std::uint64_t bytes) const;

@@ -40,7 +40,7 @@ Deadlock find_deadlock(const Machine& machine) {
   Deadlock deadlock;
   deadlock.circle = machine.dataflow().deadlock();
   deadlock.waits = machine.dataflow().waits();
-  const auto frames = static_cast<std::uint64_t>(machine.input().frames) * machine.tiles().tiles.size();
+  const std::uint64_t frames = machine.input().frames * machine.tiles().tiles.size();
   if (!deadlock.circle.empty()) deadlock.remedy = smallest_remedy(machine.dataflow(), frames);
   return deadlock;
 }

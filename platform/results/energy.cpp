@@ -29,11 +29,11 @@ StageBits stage_bits(const StageInfo& info) {
   for (unsigned port = 0; port < Stage::kMaxPorts; ++port) {
     const double read = static_cast<double>(schedule.consumed(port) * info.passes);
     for (const StreamBase* stream : info.stage->input_streams(port)) {
-      if (!stream->at_memory()) bits.read += read * static_cast<double>(stream->width().count());
+      if (!stream->at_memory()) bits.read += read * stream->width().real();
     }
     const double written = static_cast<double>(schedule.produced(port) * info.passes);
     for (const StreamBase* stream : info.stage->output_streams(port)) {
-      if (!stream->at_memory()) bits.fifo += written * static_cast<double>(stream->width().count());
+      if (!stream->at_memory()) bits.fifo += written * stream->width().real();
     }
   }
   bits.fifo += bits.read;
@@ -54,7 +54,7 @@ void add_core(EnergyActivity& activity, const Machine& machine) {
     const StageBits stage = stage_bits(info);
     if (!machine.pipeline().is_matcher(*info.stage) && info.enabled)
       activity.stage_bits += activity.frames * stage.read;
-    bits += stage.fifo + 2 * static_cast<double>(info.storage.count()) * rows;
+    bits += stage.fifo + 2 * info.storage.real() * rows;
   }
   activity.on_chip_bytes += activity.frames * bits / kBitsPerByte;
 }
@@ -69,7 +69,7 @@ EnergyActivity energy_activity(const Machine& machine, const SteadyWindow& windo
 
   EnergyActivity activity;
   activity.seconds = (last.time - first.time).to_seconds();
-  activity.frames = static_cast<double>(std::max<std::size_t>(1, window.frames()));
+  activity.frames = window.divisor();
   activity.core_cycles = activity.seconds * static_cast<double>(machine.config().clocks.core_hz);
   for (const MemoryPort* port : machine.ports()) {
     const auto bytes = static_cast<double>(last.ports[port->number].bytes - first.ports[port->number].bytes);

@@ -7,6 +7,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "tlm/error.hpp"
+#include "tlm/units.hpp"
 
 namespace parallax {
 
@@ -37,10 +38,6 @@ std::string format_text(const cv::Mat& image) {
 template <class T>
 std::vector<T> pixels_of(const cv::Mat& image) {
   return {image.begin<T>(), image.end<T>()};
-}
-
-double share(std::int64_t part, std::int64_t whole) {
-  return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
 }
 
 }  // namespace
@@ -99,16 +96,16 @@ GroundTruthScore score(const std::vector<Disparity>& disparity, int width, const
   return result;
 }
 
-double GroundTruthScore::coverage() const { return share(valid, scored); }
+double GroundTruthScore::coverage() const { return quotient(valid, scored); }
 
-double GroundTruthScore::bad_share(int limit) const { return share(bad.at(limit - 1), valid); }
+double GroundTruthScore::bad_share(int limit) const { return quotient(bad.at(limit - 1), valid); }
 
 double GroundTruthScore::bad_share_all(int limit) const {
-  return share(bad.at(limit - 1) + scored - valid, scored);
+  return quotient(bad.at(limit - 1) + scored - valid, scored);
 }
 
 double GroundTruthScore::mean_error() const {
-  return share(absolute_error, valid) / GroundTruth::kStepsPerPixel;
+  return quotient(absolute_error, valid) / GroundTruth::kStepsPerPixel;
 }
 
 GroundTruthScore& GroundTruthScore::operator+=(const GroundTruthScore& other) {

@@ -68,7 +68,7 @@ cv::Mat draw_scale(const LegendScale& scale, int width) {
   const auto& colors = scale.colors.colors();
   for (int x = place.first; x <= place.last; ++x) {
     const double share = static_cast<double>(x - place.first) / std::max(1, place.last - place.first);
-    const auto color = static_cast<std::size_t>(std::lround(share * static_cast<double>(colors.size() - 1)));
+    const std::size_t color = std::lround(share * static_cast<double>(colors.size() - 1));
     image(cv::Rect(x, place.top, 1, place.bottom - place.top + 1)) = cv::Scalar(colors[color]);
   }
   const int room = std::max(widest_tick(scale, zoom) + zoom(kTickGap), (width - 1) / kMostTicks);

@@ -21,7 +21,7 @@ Cycles cycles_between(const ClockDomain& clock, const sc_core::sc_time& from, co
 }
 
 double ratio(Cycles part, Cycles whole) {
-  return static_cast<double>(part.count()) / static_cast<double>(std::max<std::int64_t>(1, whole.count()));
+  return part.real() / static_cast<double>(std::max<std::int64_t>(1, whole.count()));
 }
 
 // Of all within kSamePace of the largest share, the first. A pace is followed by all: it is one of them only
@@ -125,14 +125,13 @@ class WindowLoads {
   PartLoad camera_rate() const {
     const double rate = config_.camera.frame_rate;
     const std::int64_t through = window_.frames() + last_.cameras.faulty - first_.cameras.faulty;
-    return {nullptr, std::min(1.0, static_cast<double>(through) / (seconds_ * rate)), 1.0 / rate};
+    return {nullptr, std::min(1.0, quotient(through, seconds_ * rate)), 1.0 / rate};
   }
 
   PartLoad engine(const MemoryPort& port) const {
     const sc_core::sc_time occupied = last_.ports[port.number].occupied - first_.ports[port.number].occupied;
     const std::uint64_t whole = port.slots * (last_.time - first_.time).value();
-    return {nullptr, static_cast<double>(occupied.value()) / static_cast<double>(whole),
-            occupied.to_seconds() / port.slots / frames_};
+    return {nullptr, quotient(occupied.value(), whole), occupied.to_seconds() / port.slots / frames_};
   }
 
   PartLoad stage(const StageInfo& info) const {

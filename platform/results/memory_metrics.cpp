@@ -10,12 +10,10 @@ namespace {
 
 // Cycles in which a port of the core held up the stage at its other end.
 void add_stalls(const MetricWriter& out, const Machine& machine, const SteadyWindow& window) {
-  const double frames = static_cast<double>(std::max<std::size_t>(1, window.frames()));
   for (const MemoryPort* port : machine.ports()) {
     if (!port->stage) continue;
     out.of(port->name)
-        .add("memory/<port>/stalls",
-             static_cast<double>(stage_time(*port->stage, window).memory.count()) / frames);
+        .add("memory/<port>/stalls", stage_time(*port->stage, window).memory.real() / window.divisor());
   }
 }
 
@@ -37,16 +35,13 @@ void add_port(const MetricWriter& out, const BusMaster& port, double bytes_per_f
 
 void add_dram(const MetricWriter& out, const DramStatistics& first, const DramStatistics& last,
               const SteadyWindow& window) {
-  const auto frames = static_cast<double>(std::max<std::size_t>(1, window.frames()));
   const auto per_frame = [&](const char* path, std::uint64_t from, std::uint64_t to) {
-    out.add(path, static_cast<double>(to - from) / frames);
+    out.add(path, quotient(to - from, window.divisor()));
   };
-  const auto bursts = static_cast<double>(last.reads + last.writes - first.reads - first.writes);
+  const std::uint64_t bursts = last.reads + last.writes - first.reads - first.writes;
   out.add("memory/row_hits",
           // A refresh may close a row before its burst has come: there may be more rows opened than bursts.
-          bursts == 0
-              ? 0
-              : 100.0 * std::max(0.0, 1.0 - static_cast<double>(last.activates - first.activates) / bursts));
+          bursts == 0 ? 0 : 100.0 * std::max(0.0, 1.0 - quotient(last.activates - first.activates, bursts)));
   per_frame("memory/bursts", first.reads + first.writes, last.reads + last.writes);
   per_frame("memory/activates", first.activates, last.activates);
   per_frame("memory/refreshes", first.refreshes, last.refreshes);
@@ -104,8 +99,7 @@ void add_memory(MetricGroup& root, const Machine& machine, const SteadyWindow& w
   const double elapsed = (last.time - first.time).to_seconds();
   const auto share = [&](Cycles taken) {
     const Cycles cycles = model->cycle_at_or_after(last.time) - model->cycle_at_or_after(first.time);
-    return 100.0 * (static_cast<double>(taken.count()) /
-                    static_cast<double>(std::max<std::int64_t>(1, cycles.count())));
+    return 100.0 * quotient(taken.count(), std::max<std::int64_t>(1, cycles.count()));
   };
   std::uint64_t total = 0;
   Cycles total_bus;  // whole cycles, so that a bus that is always taken is so for 100 %
@@ -118,15 +112,13 @@ void add_memory(MetricGroup& root, const Machine& machine, const SteadyWindow& w
     total += bytes;
     total_bus += bus;
     // After a single frame, the next one's traffic has begun.
-    const double per_frame = window.frames() == 0
-                                 ? static_cast<double>(port->rows->frame())
-                                 : static_cast<double>(bytes) / static_cast<double>(window.frames());
-    add_port(of_port, *port->master, per_frame, elapsed == 0 ? 0 : static_cast<double>(bytes) / elapsed);
+    const double per_frame = quotient(window.frames() == 0 ? port->rows->frame() : bytes, window.divisor());
+    add_port(of_port, *port->master, per_frame, quotient(bytes, elapsed));
     if (model != nullptr) of_port.add("memory/<port>/share", share(bus));
   }
   add_stalls(out, machine, window);
   out.add("memory/map/bytes_per_pixel_and_image", machine.map().bytes_per_pixel());
-  out.add("memory/bandwidth", elapsed == 0 ? 0 : static_cast<double>(total) / elapsed / 1e6);
+  out.add("memory/bandwidth", quotient(total, elapsed) / 1e6);
   if (model == nullptr) return;
   out.add("memory/usable_bandwidth", model->usable_bandwidth() / 1e6);
   out.add("memory/share", share(total_bus));

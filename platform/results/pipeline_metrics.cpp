@@ -31,7 +31,7 @@ void add_stage_time(const MetricWriter& out, const StageStatistics& time) {
   const std::vector<std::int64_t> tenths = shares_in_tenths(cycles);
   for (std::size_t i = 0; i < tenths.size(); ++i) {
     out.add(fmt::format("stages/<stage>/{}_share", name_of(kAllStageActivities[i])),
-            static_cast<double>(tenths[i]) / 10.0);
+            quotient(tenths[i], 10.0));
   }
 }
 
@@ -45,8 +45,8 @@ void add_stream(const MetricWriter& out, const StreamBase& stream) {
   out.add("streams/<stream>/writer", stream.writer_name());
   out.add("streams/<stream>/reader", stream.reader_name());
   out.add("streams/<stream>/kind", std::string(name_of(stream.config().kind)));
-  out.add("streams/<stream>/tokens", static_cast<std::int64_t>(s.written));
-  out.add("streams/<stream>/high_water", static_cast<std::int64_t>(s.high_water));
+  out.add("streams/<stream>/tokens", s.written);
+  out.add("streams/<stream>/high_water", s.high_water);
   out.add("streams/<stream>/mean_occupancy", held.mean());
   out.add("streams/<stream>/full", percent(held.full()));
   const double never = held.total() == 0 ? 100 : 0;  // a stream without a token
@@ -54,10 +54,9 @@ void add_stream(const MetricWriter& out, const StreamBase& stream) {
   out.add("streams/<stream>/blocked_on_full", s.blocked_on_full.count());
   out.add("streams/<stream>/starved_on_empty", s.starved_on_empty.count());
   std::vector<std::int64_t> bins;
-  for (std::size_t bin = 0; bin < held.bins(); ++bin)
-    bins.push_back(static_cast<std::int64_t>(held.cycles(bin)));
+  for (std::size_t bin = 0; bin < held.bins(); ++bin) bins.push_back(held.cycles(bin));
   while (!bins.empty() && bins.back() == 0) bins.pop_back();
-  out.add("streams/<stream>/occupancy_bin", static_cast<std::int64_t>(held.bin_width()));
+  out.add("streams/<stream>/occupancy_bin", held.bin_width());
   out.add("streams/<stream>/occupancy", std::move(bins));
 }
 
@@ -79,7 +78,7 @@ void add_buffers(const MetricWriter& out, const Machine& machine) {
     const MetricWriter buffers = out.of(name_of(kind));
     buffers.add("buffers/<buffers>/writer", name(writer));
     buffers.add("buffers/<buffers>/reader", name(reader));
-    buffers.add("buffers/<buffers>/number", static_cast<std::int64_t>(machine.memory_map().number_of(kind)));
+    buffers.add("buffers/<buffers>/number", machine.memory_map().number_of(kind));
   }
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "platform/results/replay_metrics.hpp"
+#include "tlm/units.hpp"
 
 namespace parallax {
 
@@ -31,26 +32,24 @@ const MetricTable& replay_table() {
 
 MetricGroup measure(const ReplayResult& result, const DramTiming& timing) {
   const double seconds =
-      static_cast<double>(result.clocks) * static_cast<double>(timing.clock_period_ps) * 1e-12;
-  const double rate = static_cast<double>(result.bytes) / seconds;
+      Picoseconds(timing.clock_period_ps).real() * static_cast<double>(result.clocks) * 1e-12;
+  const double rate = quotient(result.bytes, seconds);
   const DramStatistics& commands = result.commands;
-  const auto count = [](std::uint64_t value) { return static_cast<std::int64_t>(value); };
   MetricGroup group;
   const MetricWriter out(group, replay_table());
   out.add("frac_peak", rate / timing.peak_bandwidth());
   out.add("bandwidth", rate / 1e6);
   out.add("peak_bandwidth", timing.peak_bandwidth() / 1e6);
-  out.add("rd_lat_avg", result.reads == 0 ? 0.0 : result.latency_sum / static_cast<double>(result.reads));
+  out.add("rd_lat_avg", quotient(result.latency_sum, result.reads));
   out.add("rd_lat_max", result.latency_largest);
-  out.add("row_hit_burst", 1.0 - static_cast<double>(commands.activates) /
-                                     static_cast<double>(commands.reads + commands.writes));
-  out.add("reads", count(result.reads));
-  out.add("writes", count(result.writes));
-  out.add("bursts", count(commands.reads + commands.writes));
-  out.add("activates", count(commands.activates));
-  out.add("precharges", count(commands.precharges));
-  out.add("refreshes", count(commands.refreshes));
-  out.add("turn_arounds", count(commands.turn_arounds));
+  out.add("row_hit_burst", 1.0 - quotient(commands.activates, commands.reads + commands.writes));
+  out.add("reads", result.reads);
+  out.add("writes", result.writes);
+  out.add("bursts", commands.reads + commands.writes);
+  out.add("activates", commands.activates);
+  out.add("precharges", commands.precharges);
+  out.add("refreshes", commands.refreshes);
+  out.add("turn_arounds", commands.turn_arounds);
   out.add("time", seconds * 1e6);
   return group;
 }

@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "tlm/units.hpp"
+
 namespace parallax {
 namespace {
 
@@ -66,9 +68,8 @@ const std::array<CauseStyle, 8>& cause_styles() {
 }
 
 cv::Mat cause_colors(const DisparityView& map) {
-  return picture(map, [](const Disparity& d, std::size_t) {
-    return color_of(cause_styles().at(static_cast<std::size_t>(d.cause)));
-  });
+  return picture(
+      map, [](const Disparity& d, std::size_t) { return color_of(cause_styles().at(index_of(d.cause))); });
 }
 
 Legend cause_legend() {

@@ -45,7 +45,7 @@ void add_input(MetricGroup& root, const Machine& machine, const RunTotals& total
 
 void add_cameras(MetricGroup& root, const Machine& machine, const CameraCounts& cameras) {
   const MetricWriter out(root, run_table());
-  out.add("camera/late_bursts", static_cast<std::int64_t>(machine.sensor().late_bursts()));
+  out.add("camera/late_bursts", machine.sensor().late_bursts());
   out.add("camera/triggers", cameras.triggers);
   out.add("camera/taken_frames", cameras.taken);
   out.add("camera/dropped_frames", cameras.dropped);
@@ -60,8 +60,7 @@ void add_software(MetricGroup& root, const Machine& machine, const SteadyWindow&
       window.frames() > 0 ? machine.snapshots()[window.first].output_full : sc_core::SC_ZERO_TIME;
   out.over(window.text)
       .add("software/waits_for_output_buffer",
-           (machine.snapshots()[window.last].output_full - before).to_seconds() * 1e3 /
-               static_cast<double>(std::max<std::size_t>(1, window.frames())));
+           (machine.snapshots()[window.last].output_full - before).to_seconds() * 1e3 / window.divisor());
 }
 
 void add_quality(MetricGroup& root, const RunTotals& totals) {

@@ -62,8 +62,7 @@ std::string bar(const std::vector<std::pair<char, std::int64_t>>& parts) {
   for (const auto& [character, share] : parts) tenths.push_back(share);
   std::string text;
   const std::vector<std::int64_t> lengths = shares_of(tenths, kBarLength);
-  for (std::size_t i = 0; i < parts.size(); ++i)
-    text.append(static_cast<std::size_t>(lengths[i]), parts[i].first);
+  for (std::size_t i = 0; i < parts.size(); ++i) text.append(lengths[i], parts[i].first);
   return text;
 }
 

@@ -26,7 +26,7 @@ std::vector<std::int64_t> shares_of(const std::vector<std::int64_t>& parts, std:
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return remainders[a] > remainders[b]; });
   const std::int64_t missing = whole - std::accumulate(shares.begin(), shares.end(), std::int64_t{0});
-  for (std::int64_t i = 0; i < missing; ++i) ++shares[order[static_cast<std::size_t>(i)]];
+  for (std::int64_t i = 0; i < missing; ++i) ++shares[order[i]];
   return shares;
 }
 

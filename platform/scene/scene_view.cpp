@@ -6,6 +6,7 @@
 
 #include "modules/area.hpp"
 #include "platform/scene/scene_hash.hpp"
+#include "tlm/units.hpp"
 
 namespace parallax {
 namespace {
@@ -80,7 +81,7 @@ void find_candidates(Candidates& found, const std::vector<SceneSurface>& surface
   for (std::size_t i = 0; i < surfaces.size(); ++i) {
     Candidate c;
     c.surface = &surfaces[i];
-    c.texture = &textures[static_cast<std::size_t>(surfaces[i].texture)];
+    c.texture = &textures[index_of(surfaces[i].texture)];
     for (std::size_t k = 0; k < 4; ++k) {
       const cv::Vec3d ray(rays[k][0], rays[k][1], 1);
       c.corner[k] = {forms[i].inverse_depth.dot(ray), forms[i].u.dot(ray), forms[i].v.dot(ray)};
@@ -249,7 +250,7 @@ cv::Mat SceneView::render(const std::vector<SceneSurface>& surfaces, const Scene
           const int loss = static_cast<int>(vignetting_ * 65536 * (dx * dx + dy * dy) / corner_r2_);
           const int sum = light[y % kCell][x % kCell];
           const int seen = static_cast<int>((std::int64_t{sum} * (65536 - loss)) >> 16);
-          out[x] = sensor.expose(seen, (static_cast<std::uint64_t>(y) << 32) | static_cast<std::uint64_t>(x));
+          out[x] = sensor.expose(seen, (static_cast<std::uint64_t>(y) << 32) | x);
         }
       }
     }

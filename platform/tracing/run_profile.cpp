@@ -11,7 +11,7 @@ RecorderConfig config_of(const Machine& machine) {
   config.rows = machine.input().height;
   config.tiles = static_cast<std::int32_t>(machine.tiles().tiles.size());
   config.frames = machine.input().frames;
-  config.pace =
+  config.period =
       sc_core::sc_time(1, sc_core::SC_MS);  // what has been told until then is kept, a few rows of each port
   return config;
 }
@@ -28,11 +28,11 @@ nlohmann::ordered_json counts(const LatencyHistogram& histogram) {
 
 }  // namespace
 
-RunProfile::RunProfile(const Machine& machine, Pace& pace)
+RunProfile::RunProfile(const Machine& machine, SamplingTimer& timer)
     : machine_(machine),
       frame_(std::make_shared<FrameProfile>(machine.map_port().name)),
       order_(frame_),
-      recorder_("profile", config_of(machine), const_cast<Dataflow&>(machine.dataflow()), pace, [this] {
+      recorder_("profile", config_of(machine), const_cast<Dataflow&>(machine.dataflow()), timer, [this] {
         for (const MemoryPort* port : machine_.ports()) recorder_.add(*port->master, port->name, port->rows);
       }) {
   recorder_.add(order_);

@@ -15,7 +15,7 @@ namespace parallax {
 class RunProfile {
  public:
   /// To be made when the machine is, before the simulation starts.
-  RunProfile(const Machine& machine, Pace& pace);
+  RunProfile(const Machine& machine, SamplingTimer& timer);
 
   /// Now; frames after the run's last one are left out.
   void frame_step(std::int64_t frame, FrameStep step) {

@@ -10,6 +10,7 @@
 #include "platform/config/nearest_name.hpp"
 #include "platform/machine/machine_rows.hpp"
 #include "tlm/error.hpp"
+#include "tlm/units.hpp"
 #include "traces/csv_trace.hpp"
 #include "traces/date_order.hpp"
 #include "traces/json_trace.hpp"
@@ -45,7 +46,7 @@ RecorderConfig recorder_config(const TraceChoice& choice, const Machine& machine
   config.rows = machine.input().height;
   config.tiles = static_cast<std::int32_t>(machine.tiles().tiles.size());
   config.frames = machine.input().frames;
-  config.pace = row_time(machine);
+  config.period = row_time(machine);
   return config;
 }
 
@@ -92,12 +93,13 @@ TraceChoice read_trace_options(const TraceOptions& options) {
   return choice;
 }
 
-Tracing::Tracing(const TraceChoice& choice, const Machine& machine, Pace& pace, OutputFolder& folder)
+Tracing::Tracing(const TraceChoice& choice, const Machine& machine, SamplingTimer& timer,
+                 OutputFolder& folder)
     : machine_(machine),
       wanted_(checked_parts(choice.parts, machine)),
       window_(choice.window),
-      recorder_("recorder", recorder_config(choice, machine), const_cast<Dataflow&>(machine.dataflow()), pace,
-                [this] { add_parts(); }) {
+      recorder_("recorder", recorder_config(choice, machine), const_cast<Dataflow&>(machine.dataflow()),
+                timer, [this] { add_parts(); }) {
   for (const std::string& format : choice.formats) {
     // A fault ends the simulation, and is thrown by finish(): the kernel would lose its line.
     auto sink = std::make_unique<DateOrder>(make_sink(format, folder));
@@ -156,9 +158,7 @@ void Tracing::delivered(std::int64_t frame) {
   const FrameTimes& times = machine_.times()[frame];
   FrameRecord record;
   record.frame = frame;
-  const auto at = [&record](FrameStep step) -> Picoseconds& {
-    return record.at[static_cast<std::size_t>(step)];
-  };
+  const auto at = [&record](FrameStep step) -> Picoseconds& { return record.at[index_of(step)]; };
   at(FrameStep::kExposed) = date(times.exposed);
   at(FrameStep::kFirstByte) = date(times.first_byte);
   at(FrameStep::kInMemory) = date(times.in_memory);
@@ -182,8 +182,7 @@ void Tracing::finish() {
   const Picoseconds end = date(sc_core::sc_time_stamp());
   if (window_.from && window_.from->time && *window_.from->time >= end) {
     throw UserError(fmt::format("--trace-from: {} us is after the run's end, {} us",
-                                static_cast<double>(window_.from->time->count()) * 1e-6,
-                                static_cast<double>(end.count()) * 1e-6));
+                                static_cast<double>(window_.from->time->count()) * 1e-6, end.real() * 1e-6));
   }
 }
 

@@ -28,7 +28,7 @@ class Tracing {
  public:
   /// To be made when the machine is, before the simulation starts. Throws UserError for a window outside the
   /// run, or a part that the machine has not. Files are of the folder's publish().
-  Tracing(const TraceChoice& choice, const Machine& machine, Pace& pace, OutputFolder& folder);
+  Tracing(const TraceChoice& choice, const Machine& machine, SamplingTimer& timer, OutputFolder& folder);
   ~Tracing();
 
   /// Now; frames after the run's last one are left out.

@@ -73,14 +73,14 @@ TracedRun run_traced(const Trace& trace, std::int64_t frames, const std::string&
       if (tracing) tracing->delivered(result.index);
     };
     const Machine machine("machine", config, input);
-    Pace pace("pace");
+    SamplingTimer timer("sampling_timer");
     if (!format.empty()) {
       TraceOptions options;
       options.formats = format;
       options.level = trace.level;
       options.from = trace.from;
       options.to = trace.to;
-      tracing = std::make_unique<Tracing>(read_trace_options(options), machine, pace, folder);
+      tracing = std::make_unique<Tracing>(read_trace_options(options), machine, timer, folder);
     }
     using Clock = std::chrono::steady_clock;
     const Clock::time_point began = Clock::now();

@@ -90,14 +90,14 @@ void run_model(const std::string& file) {
 
   std::ofstream out(file, std::ios::binary);
   DateOrder vcd(std::make_unique<VcdTrace>([&out](std::string_view text) { out << text; }));
-  Pace pace("pace");
+  SamplingTimer timer("sampling_timer");
   RecorderConfig config;
   config.tokens = true;
   config.rows = 1;
   config.frames = 1;
-  config.pace = sc_core::sc_time(100, sc_core::SC_NS);
+  config.period = sc_core::sc_time(100, sc_core::SC_NS);
   Recorder* recorder = nullptr;
-  Recorder wave("recorder", config, dataflow, pace, [&] {
+  Recorder wave("recorder", config, dataflow, timer, [&] {
     for (const auto& stream : streams) recorder->add(*stream, nullptr);
   });
   recorder = &wave;

@@ -28,10 +28,10 @@ std::string trace(const PipelineCase& c, std::uint64_t leap_interval, const Trac
     RecorderConfig config;
     config.window = window;
     config.tokens = tokens;
-    config.pace = sc_core::sc_time(777, sc_core::SC_NS);
-    Pace pace("pace");
+    config.period = sc_core::sc_time(777, sc_core::SC_NS);
+    SamplingTimer timer("sampling_timer");
     std::unique_ptr<Recorder> recorder;
-    recorder = std::make_unique<Recorder>("recorder", config, dataflow, pace, [&] {
+    recorder = std::make_unique<Recorder>("recorder", config, dataflow, timer, [&] {
       for (StreamBase* stream : dataflow.streams()) recorder->add(*stream, rows);
       for (Stage* stage : dataflow.stages()) {
         StagePorts ports;

@@ -16,16 +16,16 @@
 namespace parallax {
 namespace {
 
-struct Activity {
+struct ActivityTitle {
   const char* name;
   const char* title;
 };
-constexpr std::array<Activity, 6> kActivities = {{{"busy", "busy"},
-                                                  {"starved", "upstream empty"},
-                                                  {"blocked", "downstream full"},
-                                                  {"memory", "memory"},
-                                                  {"synchroniser", "synchroniser"},
-                                                  {"blanking", "blanking"}}};
+constexpr std::array<ActivityTitle, 6> kActivities = {{{"busy", "busy"},
+                                                       {"starved", "upstream empty"},
+                                                       {"blocked", "downstream full"},
+                                                       {"memory", "memory"},
+                                                       {"synchroniser", "synchroniser"},
+                                                       {"blanking", "blanking"}}};
 
 double share(const MetricGroup& stage, const char* activity) {
   return stage.number(fmt::format("{}_share", activity));
@@ -33,7 +33,7 @@ double share(const MetricGroup& stage, const char* activity) {
 
 std::string legend() {
   std::string html = "<p class=\"legend\">";
-  for (const Activity& activity : kActivities)
+  for (const ActivityTitle& activity : kActivities)
     html += fmt::format("<span><i class=\"{}\"></i>{}</span>\n", activity.name, activity.title);
   return html + "</p>\n";
 }
@@ -69,7 +69,7 @@ Diagram::Node stage_node(const MetricGroup& tree, const MetricGroup& stage) {
   node.line = fmt::format(
       "{} cycles/px, {:.1f} %", number_text(stage.number("cycles_per_frame") / std::max(pixels, 1.0), 2),
       tree.find_group("deadlock") != nullptr ? share(stage, "busy") : stage.number("utilisation"));
-  for (const Activity& activity : kActivities)
+  for (const ActivityTitle& activity : kActivities)
     node.shares.push_back({activity.name, share(stage, activity.name) / 100});
   return node;
 }
@@ -213,13 +213,13 @@ std::string stages_section(const ReportInput& input) {
   std::vector<std::string> headings = {
       "stage", metric_term(stages.front(), "cycles_per_frame", "cycles a frame"), "interval",
       metric_term(stages.front(), "utilisation", "busy of the frame"), "where its time goes"};
-  for (const Activity& activity : kActivities)
+  for (const ActivityTitle& activity : kActivities)
     headings.push_back(metric_term(stages.front(), activity.name, activity.title));
   Table table("Where the time of each stage goes", headings);
   const std::string limit = tree.word_or("limit/part", "");
   for (const MetricGroup& stage : stages) {
     std::string bar = "<span class=\"bar\">";
-    for (const Activity& activity : kActivities)
+    for (const ActivityTitle& activity : kActivities)
       bar += fmt::format("<i class=\"{}\" style=\"width:{:.1f}%\"></i>", activity.name,
                          share(stage, activity.name));
     const nlohmann::ordered_json::json_pointer interval("/" + stage.name + "/interval");
@@ -227,7 +227,7 @@ std::string stages_section(const ReportInput& input) {
         escaped(stage.name), number_text(stage.number("cycles_per_frame"), 0),
         input.configuration.contains(interval) ? input.configuration.at(interval).dump() : "1",
         fmt::format("{:.1f} %", stage.number("utilisation")), bar + "</span>"};
-    for (const Activity& activity : kActivities)
+    for (const ActivityTitle& activity : kActivities)
       cells.push_back(fmt::format("{:.1f} %", share(stage, activity.name)));
     table.row(cells,
               fmt::format("id=\"stage-{}\"{}", stage.name, stage.name == limit ? " class=\"limits\"" : ""));

@@ -10,11 +10,11 @@ namespace parallax {
 /// Calls those who look at a simulation, each again and again after a time of its own, the first time at its
 /// begin. A simulation that has come to rest is not kept going by who looks at it: that needs one process for
 /// all, as each would take the others for something that is still to come.
-class Pace final : public sc_core::sc_module {
+class SamplingTimer final : public sc_core::sc_module {
  public:
-  explicit Pace(const sc_core::sc_module_name& name);
-  Pace(const Pace&) = delete;
-  Pace& operator=(const Pace&) = delete;
+  explicit SamplingTimer(const sc_core::sc_module_name& name);
+  SamplingTimer(const SamplingTimer&) = delete;
+  SamplingTimer& operator=(const SamplingTimer&) = delete;
 
   /// Before the simulation starts.
   void add(const sc_core::sc_time& period, std::function<void()> look) {

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "traces/pace.hpp"
+#include "traces/sampling_timer.hpp"
 
 #include <algorithm>
 
 namespace parallax {
 
-Pace::Pace(const sc_core::sc_module_name& name) : sc_module(name) {
-  SC_HAS_PROCESS(Pace);
+SamplingTimer::SamplingTimer(const sc_core::sc_module_name& name) : sc_module(name) {
+  SC_HAS_PROCESS(SamplingTimer);
   SC_METHOD(go_on);
 }
 
-void Pace::go_on() {
+void SamplingTimer::go_on() {
   const sc_core::sc_time& now = sc_core::sc_time_stamp();
   sc_core::sc_time next = sc_core::sc_max_time();
   for (Look& look : looks_) {

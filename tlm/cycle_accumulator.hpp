@@ -10,9 +10,9 @@ namespace parallax {
 /// Cycles that work takes at `per_unit` = numerator / denominator cycles a unit, without ever losing a
 /// fraction: the sum over any number of calls is the exact time rounded down. numerator * units must stay
 /// below 2^63.
-class Pacer {
+class CycleAccumulator {
  public:
-  Pacer(std::int64_t numerator, std::int64_t denominator)
+  CycleAccumulator(std::int64_t numerator, std::int64_t denominator)
       : numerator_(numerator), denominator_(denominator) {}
 
   Cycles take(std::int64_t units) {
