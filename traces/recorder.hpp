@@ -27,7 +27,7 @@ struct RecorderConfig {
   std::int32_t rows = 0;    ///< of the image
   std::int32_t tiles = 1;   ///< that a frame is processed in
   std::int64_t frames = 0;  ///< of the run
-  sc_core::sc_time timer;   ///< how often FIFOs are looked at, and sinks told
+  sc_core::sc_time period;  ///< how often FIFOs are looked at, and sinks told
 };
 
 /// Listens to the parts that it is given and tells sinks what they do. A part that it is not given costs

@@ -113,7 +113,7 @@ void Machine::start_of_simulation() {
   core_.find_stages();
   parts_ = collect_parts();
   if (input_.timing_only) return;
-  core_.pipeline().output().in_disparity->add_row_listener(host_);
+  core_.pipeline().results().add_row_listener(host_);
   ::tlm::tlm_generic_payload payload;
   std::vector<std::uint8_t> map_bytes = map().bytes;
   payload.set_command(::tlm::TLM_WRITE_COMMAND);

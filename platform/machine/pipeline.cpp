@@ -9,6 +9,7 @@
 #include "modules/consistency_stage.hpp"
 #include "modules/map_decoder_stage.hpp"
 #include "modules/matching_stage.hpp"
+#include "modules/output_packing_stage.hpp"
 #include "modules/pixel_unpack_stage.hpp"
 #include "modules/rectification_stage.hpp"
 #include "modules/store_stages.hpp"
@@ -89,10 +90,11 @@ Pipeline::Pipeline(const sc_core::sc_module_name& name, const MachineConfig& con
   place_filters(tiles);
   connect_inputs();
   connect_matching();
-  connect_filters();
+  const std::string results = connect_filters();
   if (store_.keeps_rows()) rows_ = place_store("rows", store_.rows, false);
   if (store_.keeps_frame()) frame_ = place_store("frame", store_.frame, true);
   wiring_.build();
+  results_ = &wiring_.stream<Disparity>(results);
   for (const auto& slot : wiring_.slots()) {
     if (slot->content.follow) follow_.push_back(slot->content.follow);
   }
@@ -154,9 +156,8 @@ void Pipeline::place_filters(const TilePlan& tiles) {
                   });
   }
   last_filter_ = stages().back();
-  output_packing_ = wiring_.place<OutputPackingStage>(
-      "output_packing", {}, packing(tiles, config_.link.output_left(), config_.dma.output), context_);
-  if (output_packing_ == nullptr) throw std::logic_error("the slot output_packing must hold the usual stage");
+  wiring_.place<OutputPackingStage>("output_packing", {},
+                                    packing(tiles, config_.link.output_left(), config_.dma.output), context_);
 }
 
 std::unique_ptr<Pipeline::Store> Pipeline::place_store(const std::string& what, const StoreLayout& layout,
@@ -217,8 +218,8 @@ void Pipeline::connect_matching() {
                              {"texture", "in_disparity"}, Wiring::Reads::kLate);
 }
 
-// From one filter to the next, and to the packing.
-void Pipeline::connect_filters() {
+// From one filter to the next, and to the packing; returns the name of the last stream.
+std::string Pipeline::connect_filters() {
   const TokenFormat disparity = disparity_format();
   PortName from{"texture", "out_disparity"};
   std::string stream = "textured";
@@ -229,6 +230,7 @@ void Pipeline::connect_filters() {
   }
   wiring_.connect<Disparity>(stream, disparity, from, {"output_packing", "in_disparity"});
   wiring_.attach(output_bursts_, {"output_packing", "out_bursts"});
+  return stream;
 }
 
 void Pipeline::bind_rows(StreamIn<std::uint8_t>& kept, StreamOut<std::uint8_t>& returned) {

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "modules/map_codec.hpp"
-#include "modules/output_packing_stage.hpp"
 #include "platform/config/machine_config.hpp"
 #include "platform/machine/matcher_store.hpp"
 #include "platform/machine/stage_info.hpp"
@@ -25,7 +24,7 @@ namespace parallax {
 class Pipeline final : public sc_core::sc_module {
  public:
   /// `map`: cut for the tiles (cut_map). `context` has the size of a tile. `replacements`: what stands in the
-  /// place of stages, but for output_packing; std::logic_error where it does not fit.
+  /// place of stages; std::logic_error where it does not fit.
   Pipeline(const sc_core::sc_module_name& name, const MachineConfig& config, const EncodedMap& map,
            const TilePlan& tiles, const StageContext& context, const StageReplacements& replacements = {});
 
@@ -44,7 +43,8 @@ class Pipeline final : public sc_core::sc_module {
   /// For the next frame with values; each is told, in order.
   void configure(const AlgorithmParameters& parameters);
 
-  OutputPackingStage& output() { return *output_packing_; }
+  /// The final disparities, on their way to the packing.
+  Stream<Disparity>& results() const { return *results_; }
   /// The stage whose tokens are the final disparities (if that is a block in kernel time, the last one
   /// before).
   const StageInfo& last_filter() const { return last_filter_; }
@@ -65,7 +65,7 @@ class Pipeline final : public sc_core::sc_module {
   void place_filters(const TilePlan& tiles);
   void connect_inputs();
   void connect_matching();
-  void connect_filters();
+  std::string connect_filters();
   std::unique_ptr<Store> place_store(const std::string& what, const StoreLayout& layout, bool backwards);
 
   const MachineConfig& config_;
@@ -75,7 +75,7 @@ class Pipeline final : public sc_core::sc_module {
   AlgorithmParameters parameters_;  // of the last frame that was told
   Wiring wiring_;
   StageInfo last_filter_{};
-  OutputPackingStage* output_packing_ = nullptr;
+  Stream<Disparity>* results_ = nullptr;
   std::vector<std::function<void(const MachineConfig* next)>> follow_;  // run-time parameters
 
   Stream<std::uint8_t> left_bursts_;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <systemc>
 #include <utility>
@@ -76,6 +77,9 @@ class Wiring {
   void build();
 
   const std::vector<std::unique_ptr<Slot>>& slots() const { return slots_; }
+  /// The stream of that name, after build().
+  template <class T>
+  Stream<T>& stream(const std::string& name) const;
 
  private:
   struct Wire {
@@ -120,6 +124,15 @@ void Wiring::connect(const std::string& stream, const TokenFormat& format, const
     return made;
   };
   wires_.push_back({stream, format.width(), index(from.slot), index(to.slot), reads, groups, make});
+}
+
+template <class T>
+Stream<T>& Wiring::stream(const std::string& name) const {
+  for (std::size_t i = 0; i < streams_.size(); ++i) {
+    auto* const found = dynamic_cast<Stream<T>*>(streams_[i].get());
+    if (wires_[i].name == name && found != nullptr) return *found;
+  }
+  throw std::logic_error("no stream " + name + " of these tokens");
 }
 
 }  // namespace parallax

@@ -2,6 +2,7 @@
 // Other blocks in the place of a stage, between the same streams.
 #include <gtest/gtest.h>
 
+#include "modules/output_packing_stage.hpp"
 #include "tests/example/late_census.hpp"
 #include "tests/example/machine_run.hpp"
 
@@ -41,6 +42,20 @@ TEST(Replacement, ABlockInKernelTimeGivesTheSameValues) {
   EXPECT_EQ(other.disparities, usual.disparities);
   // It looks almost a row further ahead, which is refilled once a frame.
   EXPECT_LE(other.period, usual.period + kWidth);
+}
+
+TEST(Replacement, TheLastStageIsReplacedLikeTheOthers) {
+  const MachineConfig config = small_machine();
+  const StageFactory packing = [&](const std::string& name, const StageContext& context) {
+    const OutputPackingConfig whole_rows{
+        Bytes(config.dma.output.burst_bytes), config.link.output_left(), {{0, kWidth}}};
+    return slot_module(std::make_unique<OutputPackingStage>(name.c_str(), whole_rows, context));
+  };
+  const MachineRun usual = run_machine(config);
+  const MachineRun other = run_machine(config, {{"output_packing", packing}});
+  ASSERT_EQ(other.fault, "");
+  EXPECT_EQ(other.disparities, usual.disparities);
+  EXPECT_EQ(other.period, usual.period);
 }
 
 TEST(Replacement, WhatHasNoSlotOrNotItsPortsIsReported) {
