@@ -2,6 +2,7 @@
 // The values that travel between stages, one type a token.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 namespace parallax {
@@ -33,7 +34,7 @@ inline bool operator==(const OffsetPair& a, const OffsetPair& b) {
 }
 
 /// What made a pixel invalid, or what its value came from. A model-side label: the device sends the value
-/// alone.
+/// alone. One that is added has its name and colour in platform/results/result_images.cpp.
 enum class Cause : std::uint8_t {
   kMatched = 0,       ///< valid, from matching
   kInterpolated = 1,  ///< valid, filled by gap interpolation
@@ -43,7 +44,9 @@ enum class Cause : std::uint8_t {
   kTexture = 5,       ///< invalid: texture filter
   kSpeckle = 6,       ///< invalid: speckle filter
   kNoise = 7,         ///< invalid: noise reduction
+  kEnd                ///< no cause: how many there are
 };
+inline constexpr auto kCauses = static_cast<std::size_t>(Cause::kEnd);
 
 /// 12-bit fixed-point disparity: 8 integer and 4 fraction bits; 0xFFF is invalid.
 inline constexpr std::uint16_t kInvalidDisparity = 0xFFF;

@@ -22,7 +22,8 @@ std::string filled(const std::string& text, const std::string& replacement) {
 const MetricInfo& MetricTable::at(std::string_view path) const {
   const auto found =
       std::find_if(rows_.begin(), rows_.end(), [&](const MetricInfo& row) { return row.path == path; });
-  if (found == rows_.end()) throw std::logic_error(fmt::format("the glossary has no {}", path));
+  if (found == rows_.end())
+    throw std::logic_error(fmt::format("no row of the table of metrics in this file is {}", path));
   return *found;
 }
 

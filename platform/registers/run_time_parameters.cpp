@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <stdexcept>
 #include <type_traits>
 
@@ -121,10 +122,15 @@ std::vector<RegisterField> parameter_fields(const std::string& reg) {
 }
 
 std::vector<RegisterField> parameter_error_fields() {
+  std::map<unsigned, const ParameterRule*> rules;  // by bit
+  for (const RunTimeParameter& p : run_time_parameters()) {
+    if (p.rule == nullptr) continue;
+    const ParameterRule* const first = rules.emplace(p.rule->bit, p.rule).first->second;
+    if (first != p.rule) throw std::logic_error(fmt::format("two rules have the error bit {}", p.rule->bit));
+  }
   std::vector<RegisterField> fields;
-  for (const ParameterRule* rule : {&kPenalties, &kFixed, &kFactorRange, &kBuiltPasses, &kBuiltParts}) {
-    fields.push_back(
-        {rule->error, rule->bit, 1, FieldAccess::kWriteOneToClear, 0, rule->error_documentation});
+  for (const auto& [bit, rule] : rules) {
+    fields.push_back({rule->error, bit, 1, FieldAccess::kWriteOneToClear, 0, rule->error_documentation});
   }
   return fields;
 }

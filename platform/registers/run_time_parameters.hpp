@@ -53,7 +53,8 @@ const std::vector<RunTimeParameter>& run_time_parameters();
 /// The parameters that lie in a register of the stereo block, as its fields.
 std::vector<RegisterField> parameter_fields(const std::string& reg);
 
-/// The bits of the register stereo.errors.
+/// The bits of the register stereo.errors: one for each rule of a row. std::logic_error where two rules share
+/// a bit.
 std::vector<RegisterField> parameter_error_fields();
 
 /// "May change from frame to frame: ..." for the documentation of a configuration key; empty when the key is

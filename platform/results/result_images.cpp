@@ -53,17 +53,18 @@ Legend disparity_legend(const ColorScale& scale) {
   return {LegendScale{"disparity, px", scale}, {{"invalid", kInvalid}}};
 }
 
-const std::array<CauseStyle, 8>& cause_styles() {
+const std::array<CauseStyle, kCauses>& cause_styles() {
   // Valid pixels in quiet greys, so that the reasons for a gap stand out; hues after Okabe and Ito's palette,
   // which most colour-blind readers can tell apart.
-  static const std::array<CauseStyle, 8> styles{{{Cause::kMatched, "matched", {210, 210, 210}},
-                                                 {Cause::kInterpolated, "interpolated", {140, 140, 140}},
-                                                 {Cause::kBorder, "border", {0, 0, 0}},
-                                                 {Cause::kUniqueness, "uniqueness", {230, 159, 0}},
-                                                 {Cause::kConsistency, "consistency", {0, 114, 178}},
-                                                 {Cause::kTexture, "texture", {0, 158, 115}},
-                                                 {Cause::kSpeckle, "speckle", {204, 121, 167}},
-                                                 {Cause::kNoise, "noise", {240, 228, 66}}}};
+  static const std::array<CauseStyle, kCauses> styles{
+      {{Cause::kMatched, "matched", {210, 210, 210}},
+       {Cause::kInterpolated, "interpolated", {140, 140, 140}},
+       {Cause::kBorder, "border", {0, 0, 0}},
+       {Cause::kUniqueness, "uniqueness", {230, 159, 0}},
+       {Cause::kConsistency, "consistency", {0, 114, 178}},
+       {Cause::kTexture, "texture", {0, 158, 115}},
+       {Cause::kSpeckle, "speckle", {204, 121, 167}},
+       {Cause::kNoise, "noise", {240, 228, 66}}}};
   return styles;
 }
 

@@ -33,7 +33,7 @@ struct CauseStyle {
   std::string_view name;
   std::array<std::uint8_t, 3> rgb;
 };
-const std::array<CauseStyle, 8>& cause_styles();
+const std::array<CauseStyle, kCauses>& cause_styles();
 
 /// The colour of each pixel's cause: CV_8UC3 (BGR) of the map's size.
 cv::Mat cause_colors(const DisparityView& map);

@@ -105,7 +105,7 @@ TEST_F(Glossary, IsWrittenInSentences) {
 TEST_F(Glossary, TheCheckedInPageIsWhatItPrints) {
   const Outcome outcome = program_("glossary --markdown");
   EXPECT_EQ(outcome.code, 0) << outcome.err;
-  EXPECT_EQ(outcome.out, read_text(source_path("platform/doc/glossary.md")))
+  EXPECT_EQ(read_text(source_path("platform/doc/glossary.md")), outcome.out)
       << "run: parallax glossary --markdown > platform/doc/glossary.md";
 }
 

@@ -60,14 +60,21 @@ TEST(MachineConfig, EveryKeyTakesBothEndsOfItsRange) {
 }
 
 TEST(ShippedPresets, EveryValueCarriesTagAndSource) {
-  ASSERT_FALSE(list_presets({kShipped}).empty());
-  for (const PresetSummary& preset : list_presets({kShipped})) {
-    const PresetFile file = read_preset_file(kShipped / (preset.name + ".toml"));
-    EXPECT_FALSE(file.description.empty()) << preset.name;
-    for (const auto& [key, value] : file.values) {
-      EXPECT_TRUE(value.tag) << value.origin << " " << key;
-      EXPECT_TRUE(value.source && !value.source->empty()) << value.origin << " " << key;
+  const auto check = [](const std::filesystem::path& folder) {
+    const std::vector<PresetSummary> presets = list_presets({folder});
+    EXPECT_FALSE(presets.empty()) << folder;
+    for (const PresetSummary& preset : presets) {
+      const PresetFile file = read_preset_file(folder / (preset.name + ".toml"));
+      EXPECT_FALSE(file.description.empty()) << preset.name;
+      for (const auto& [key, value] : file.values) {
+        EXPECT_TRUE(value.tag) << value.origin << " " << key;
+        EXPECT_TRUE(value.source && !value.source->empty()) << value.origin << " " << key;
+      }
     }
+  };
+  check(kShipped);
+  check(kShipped / "memory");
+  for (const PresetSummary& preset : list_presets({kShipped})) {
     EXPECT_NO_THROW(load_configuration({preset.name, {}, {}}, {kShipped})) << preset.name;
   }
 }

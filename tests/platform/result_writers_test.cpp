@@ -170,7 +170,8 @@ TEST(ErrorColors, WhatHasNoErrorIsNotTakenForOne) {
 
 TEST(CausesPng, EveryCauseHasItsOwnStyle) {
   for (std::size_t i = 0; i < cause_styles().size(); ++i) {
-    EXPECT_EQ(static_cast<std::size_t>(cause_styles()[i].cause), i);
+    EXPECT_EQ(static_cast<std::size_t>(cause_styles()[i].cause), i)
+        << "a cause without its style in result_images.cpp";
     for (std::size_t j = 0; j < i; ++j) {
       EXPECT_NE(cause_styles()[i].rgb, cause_styles()[j].rgb);
       EXPECT_NE(cause_styles()[i].name, cause_styles()[j].name);

@@ -53,7 +53,8 @@ TEST(RunTimeParameters, AFieldHoldsAllThatItsKeyAllowsAndARuleMeetsTheRest) {
       EXPECT_EQ(p.decode(bits), value) << p.key;
     }
     const bool exact = p.decode(0) == bound.range().least && p.decode(most) == bound.range().most;
-    EXPECT_TRUE(exact || p.rule != nullptr) << p.key;
+    EXPECT_TRUE(exact || p.rule != nullptr)
+        << p.key << ": its field holds values that the key does not allow; a rule has to refuse them";
   }
 }
 
@@ -62,6 +63,14 @@ TEST(RunTimeParameters, ARowIsAFieldOfTheMapWithItsKeyInTheText) {
     const Register& reg = find_register("stereo", p.reg).description;
     EXPECT_EQ(compose(reg, {{p.field, 1}}), 1U << p.low) << p.key;
     EXPECT_NE(registers_as_text().find(p.key), std::string::npos) << p.key;
+  }
+}
+
+TEST(RunTimeParameters, EveryRuleHasItsErrorBit) {
+  const Register& errors = find_register("stereo", "errors").description;
+  for (const RunTimeParameter& p : run_time_parameters()) {
+    if (p.rule == nullptr) continue;
+    EXPECT_EQ(compose(errors, {{p.rule->error, 1}}), 1U << p.rule->bit) << p.key;
   }
 }
 
