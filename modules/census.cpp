@@ -113,7 +113,8 @@ void Census::transform(int y, const RowSink<CensusCode>& emit) {
     const int place = i < bits / 2 ? i : i + 1;  // the centre is no neighbour
     const int dx = place % config_.window_width - half_width;
     const int dy = place / config_.window_width - half_height;
-    set_bits(config_.comparison, line_for(y + dy) + dx, centre, width_, 1U << (bit % 8), byte_.data());
+    set_bits(config_.comparison, line_for(y + dy) + dx, centre, width_,
+             static_cast<std::uint8_t>(1U << (bit % 8)), byte_.data());
     if (bit % 8 == 7 || bit == bits - 1) flush(bit / 8);
   }
 

@@ -111,7 +111,8 @@ void Rectification::check(const OffsetPair* row) const {
   const auto beyond = [limit](const Offset& o) { return std::abs(o.dx) > limit || std::abs(o.dy) > limit; };
   bool any = false;
   for (int x = 0; x < width_; ++x) {
-    any |= beyond(row[x].left) | beyond(row[x].right);
+    any |= beyond(row[x].left);
+    any |= beyond(row[x].right);
   }
   if (any) {
     throw std::invalid_argument(fmt::format(

@@ -51,12 +51,12 @@ fs::path find_file(const std::string& name, const fs::path& relative_to, const F
                    const std::string& before, const std::string& what) {
   std::error_code ignored;
   if (is_preset_path(name)) {
-    const fs::path file = relative_to.empty() ? fs::path(name) : (relative_to / name).lexically_normal();
+    fs::path file = relative_to.empty() ? fs::path(name) : (relative_to / name).lexically_normal();
     if (fs::exists(file, ignored)) return file;
     throw UserError(fmt::format("{}{} file {} does not exist", before, what, file.string()));
   }
   for (const fs::path& folder : folders) {
-    const fs::path file = folder / (name + ".toml");
+    fs::path file = folder / (name + ".toml");
     if (fs::exists(file, ignored)) return file;
   }
   const std::string nearest = nearest_name(name, names_in(folders));

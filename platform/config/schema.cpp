@@ -129,8 +129,9 @@ void Schema::boolean(std::string path, bool& field, std::string documentation, P
   add(std::move(key));
 }
 
-void Schema::name_set(std::string path, unsigned& field, std::vector<std::pair<std::string, unsigned>> bits,
-                      std::string documentation, Provenance provenance) {
+void Schema::name_set(std::string path, unsigned& field,
+                      const std::vector<std::pair<std::string, unsigned>>& bits, std::string documentation,
+                      Provenance provenance) {
   Key key{std::move(path), KeyType::kNameSet, "", std::move(documentation), std::move(provenance)};
   for (const auto& [name, bit] : bits) key.names.push_back(name);
   key.get = [&field, bits] {

@@ -71,7 +71,7 @@ class Schema {
               std::string documentation, Provenance provenance);
 
   /// A set of names, each a bit of the field.
-  void name_set(std::string path, unsigned& field, std::vector<std::pair<std::string, unsigned>> bits,
+  void name_set(std::string path, unsigned& field, const std::vector<std::pair<std::string, unsigned>>& bits,
                 std::string documentation, Provenance provenance);
 
   const std::vector<Key>& keys() const { return keys_; }
@@ -96,7 +96,8 @@ void Schema::integer(std::string path, Integer& field, IntegerRange range, std::
                      std::string documentation, Provenance provenance) {
   static_assert(std::is_integral_v<Integer> && !std::is_same_v<Integer, bool>, "an integer field");
   using Limits = std::numeric_limits<Integer>;
-  const bool least_fits = range.least >= 0 || static_cast<std::int64_t>(Limits::min()) <= range.least;
+  const std::int64_t lowest = Limits::min();
+  const bool least_fits = lowest <= range.least;
   const bool most_fits =
       range.most <= 0 || static_cast<std::uint64_t>(Limits::max()) >= static_cast<std::uint64_t>(range.most);
   if (!least_fits || !most_fits) throw std::logic_error("the range of " + path + " exceeds its field");

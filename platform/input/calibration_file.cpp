@@ -82,7 +82,7 @@ std::vector<double> CalibrationFile::numbers(const Names& names, const std::vect
   }
   cv::Mat_<double> doubles;
   mat.convertTo(doubles, CV_64F);
-  const std::vector<double> values(doubles.begin(), doubles.end());
+  std::vector<double> values(doubles.begin(), doubles.end());
   for (const double value : values) {
     if (!std::isfinite(value)) {
       throw UserError(fmt::format("{}: {} holds a value that is not a finite number", name_, node.name()));

@@ -75,7 +75,7 @@ ImageInput::ImageInput(std::vector<ImagePair> pairs, const ImageLimits& limits, 
 
 StereoImages ImageInput::load(std::size_t frame) {
   const ImagePair& pair = pairs_.at(frame);
-  const StereoImages images = read(pair);
+  StereoImages images = read(pair);
   if (width_ == 0) {
     width_ = images.left.cols;
     height_ = images.left.rows;

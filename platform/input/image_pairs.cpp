@@ -30,9 +30,9 @@ std::string lower(std::string text) {
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";  // some editors put it before UTF-8 text
 
 bool is_image(const fs::path& path) {
-  static const std::set<std::string> kExtensions{".png", ".jpg", ".jpeg", ".bmp",  ".pgm",
-                                                 ".ppm", ".pnm", ".tif",  ".tiff", ".webp"};
-  return kExtensions.count(lower(path.extension().string())) > 0;
+  static const std::set<std::string> extensions{".png", ".jpg", ".jpeg", ".bmp",  ".pgm",
+                                                ".ppm", ".pnm", ".tif",  ".tiff", ".webp"};
+  return extensions.count(lower(path.extension().string())) > 0;
 }
 
 std::vector<std::string> image_names(const fs::path& folder) {
@@ -119,9 +119,9 @@ std::vector<ImagePair> pairs_by_rule(const fs::path& folder, const std::vector<s
 }
 
 std::vector<ImagePair> pairs_of_subfolders(const fs::path& folder) {
-  static const std::pair<const char*, const char*> kNames[] = {
+  static const std::pair<const char*, const char*> names[] = {
       {"left", "right"}, {"image_0", "image_1"}, {"image_2", "image_3"}, {"image_l", "image_r"}};
-  for (const auto& [left, right] : kNames) {
+  for (const auto& [left, right] : names) {
     if (!fs::is_directory(folder / left) || !fs::is_directory(folder / right)) {
       continue;
     }

@@ -17,7 +17,7 @@ std::string remedy(const Calibration& calibration, const OffsetRange& range) {
   if (const std::optional<Fit> found = fit(calibration, range)) {
     return fmt::format(", or --fit: {}", found->text());
   }
-  const std::string none = "; no zoom of 0.25..4 and shift fits into this one";
+  std::string none = "; no zoom of 0.25..4 and shift fits into this one";
   OffsetRange wider = range;
   wider.window = smallest_window(calibration, range);
   if (wider.window == 0) {

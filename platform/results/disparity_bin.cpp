@@ -17,10 +17,10 @@ std::vector<unsigned char> pack_disparities(const DisparityView& map) {
       const unsigned p0 = row[x].value;
       const bool pair = x + 1 < map.width;
       const unsigned p1 = pair ? row[x + 1].value : 0u;
-      bytes.push_back(p0 & 0xFFu);
-      bytes.push_back(((p0 >> 8) & 0xFu) | ((p1 & 0xFu) << 4));
+      bytes.push_back(static_cast<unsigned char>(p0));
+      bytes.push_back(static_cast<unsigned char>(((p0 >> 8) & 0xFu) | (p1 << 4)));
       if (pair) {
-        bytes.push_back((p1 >> 4) & 0xFFu);
+        bytes.push_back(static_cast<unsigned char>(p1 >> 4));
       }
     }
   }
@@ -39,9 +39,9 @@ std::vector<std::uint16_t> unpack_disparities(const std::vector<unsigned char>& 
   const unsigned char* in = bytes.data();
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; x += 2) {
-      values.push_back(in[0] | (in[1] & 0xFu) << 8);
+      values.push_back(static_cast<std::uint16_t>(in[0] | (in[1] & 0xFu) << 8));
       if (x + 1 < width) {
-        values.push_back(in[1] >> 4 | in[2] << 4);
+        values.push_back(static_cast<std::uint16_t>(in[1] >> 4 | in[2] << 4));
         ++in;
       }
       in += 2;

@@ -101,12 +101,12 @@ void OutputFolder::publish() {
   std::vector<std::unique_ptr<OutputFile>> files = std::exchange(opened_, {});
   std::move(written_.begin(), written_.end(), std::back_inserter(files));
   written_.clear();
-  publish(std::move(files));
+  publish(files);
 }
 
 void OutputFolder::publish_written() { publish(std::exchange(written_, {})); }
 
-void OutputFolder::publish(std::vector<std::unique_ptr<OutputFile>> files) {
+void OutputFolder::publish(const std::vector<std::unique_ptr<OutputFile>>& files) {
   for (const auto& file : files) file->close();
   remove_old();
   for (const auto& file : files) file->publish();

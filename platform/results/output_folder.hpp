@@ -47,7 +47,7 @@ class OutputFolder {
 
  private:
   std::unique_ptr<OutputFile> create(const std::string& name);
-  void publish(std::vector<std::unique_ptr<OutputFile>> files);
+  void publish(const std::vector<std::unique_ptr<OutputFile>>& files);
   void make(const std::filesystem::path& folder);
   void remove_old();
   void remove_made();  ///< those that are empty

@@ -66,10 +66,10 @@ const std::vector<std::string>& checked_parts(const std::vector<std::string>& pa
 }  // namespace
 
 TraceChoice read_trace_options(const TraceOptions& options) {
-  static const std::vector<std::string> kFormats{"perfetto", "vcd", "csv", "json"};
+  static const std::vector<std::string> formats{"perfetto", "vcd", "csv", "json"};
   TraceChoice choice;
   for (const std::string& format : split(options.formats)) {
-    if (std::find(kFormats.begin(), kFormats.end(), format) == kFormats.end()) {
+    if (std::find(formats.begin(), formats.end(), format) == formats.end()) {
       throw UserError(
           fmt::format("--trace {}: there is no format '{}'; there are perfetto, vcd, csv and json",
                       options.formats, format));

@@ -86,7 +86,7 @@ class RowReader {
   std::optional<T> optional(const char* key, const char* expected) const {
     const toml::node* const node = table_.get(key);
     if (node == nullptr) return std::nullopt;
-    const std::optional<T> value = node->value<T>();
+    std::optional<T> value = node->value<T>();
     if (!value) fail(key, expected);
     return value;
   }

@@ -50,7 +50,7 @@ std::string data_uri(std::string_view type, const std::vector<unsigned char>& by
   return text;
 }
 
-Table::Table(std::string caption, std::vector<std::string> headings, std::string classes) {
+Table::Table(std::string caption, const std::vector<std::string>& headings, const std::string& classes) {
   head_ = fmt::format("<div class=\"scroll\"><table class=\"{}\">", classes);
   if (!caption.empty()) head_ += fmt::format("<caption>{}</caption>", caption);
   head_ += "<thead><tr>";

@@ -19,7 +19,8 @@ std::string data_uri(std::string_view type, const std::vector<unsigned char>& by
 /// A table of HTML. Cells and headings are HTML already.
 class Table {
  public:
-  explicit Table(std::string caption, std::vector<std::string> headings, std::string classes = "");
+  explicit Table(std::string caption, const std::vector<std::string>& headings,
+                 const std::string& classes = "");
   /// `attributes`: of the row, such as `id="stage-census"`.
   void row(const std::vector<std::string>& cells, std::string_view attributes = "");
   bool empty() const { return rows_.empty(); }
