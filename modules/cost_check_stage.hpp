@@ -5,6 +5,7 @@
 #include <systemc>
 #include <utility>
 
+#include "modules/area.hpp"
 #include "modules/frame_changes.hpp"
 #include "modules/pixel.hpp"
 #include "modules/raster_schedule.hpp"
@@ -30,7 +31,7 @@ class CostCheckStage final : public Stage {
       : Stage(name, context.clock, context.dataflow, timing.latency),
         kernel_(std::in_place, config, range, context.width, context.height),
         changes_(context.height),
-        rows_(static_cast<std::size_t>(context.width) * range.count, context.width,
+        rows_(area(context.width, range.count), context.width,
               [this, range, context, width = static_cast<std::size_t>(context.width)](
                   const Cost* costs, const Disparity* disparities) {
                 if (const auto change = changes_.at_row()) {

@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "modules/area.hpp"
 #include "modules/bit_packer.hpp"
 #include "modules/hamming_row.hpp"
 #include "modules/path_costs.hpp"
@@ -33,8 +34,6 @@ void check(const char* key, int value, int low, int high) {
     throw UserError(fmt::format("matching.{} = {}: must be within {}..{}", key, value, low, high));
   }
 }
-
-std::size_t product(int a, int b) { return static_cast<std::size_t>(a) * b; }
 
 std::size_t count_of(const MatchingConfig& config) { return config.range().count; }
 
@@ -98,23 +97,23 @@ struct Matching::State {
         hamming(matching, columns, bits),
         first_pass(make_paths(matching, columns, false)),
         second_pass(make_paths(matching, columns, true)),
-        costs(product(columns, count)),
-        sums(product(columns, count)) {
+        costs(area(columns, count)),
+        sums(area(columns, count)) {
     if (config.paths & kPathE) {
       MatchingConfig restarting = config;
       restarting.path_start = PathStart::kCost;
       east.emplace(Path::Direction{-1, 0}, restarting, width);
     }
     if (!second_pass.empty()) {
-      left_codes.resize(product(width, height));
-      right_codes.resize(product(width, height));
-      frame_sums.resize(product(width, height) * count);
+      left_codes.resize(area(width, height));
+      right_codes.resize(area(width, height));
+      frame_sums.resize(area(width, height) * count);
     }
   }
 
   void match(const CensusCode* left, const CensusCode* right, Cost* out) {
     hamming.compute(left, right, costs.data());
-    std::fill_n(out, product(width, count), Cost{0});
+    std::fill_n(out, area(width, count), Cost{0});
     for (int x = 0; x < width; ++x) {
       for (Path& path : first_pass) path.advance(x, row, costs.data() + x * count, out + x * count);
     }
@@ -148,7 +147,7 @@ struct Matching::State {
     if (!take) return;
     const int sum_bits = first_sum_bits(config, code_bits);
     BitPacker packer;
-    for (std::size_t pixel = product(row, width); pixel < product(row + 1, width); ++pixel) {
+    for (std::size_t pixel = area(row, width); pixel < area(row + 1, width); ++pixel) {
       const Cost* pixel_sums = frame_sums.data() + pixel * count;
       for (int k = 0; k < count && sum_bits > 0; ++k) packer.field(pixel_sums[k], sum_bits);
       for (const CensusCode code : {left_codes[pixel], right_codes[pixel]}) {
@@ -166,7 +165,7 @@ struct Matching::State {
   /// The southern paths: the frame turned by 180 degrees, added to the sums of the first pass.
   void sweep_back(const MatchingKeeper::Take& take) {
     for (int i = 0; i < height; ++i) {
-      const std::size_t first = product(height - 1 - i, width);
+      const std::size_t first = area(height - 1 - i, width);
       hamming.compute(left_codes.data() + first, right_codes.data() + first, costs.data());
       for (int j = 0; j < width; ++j) {
         const int x = width - 1 - j;
@@ -207,7 +206,7 @@ void Matching::push(const CensusCode* left, const CensusCode* right, const RowSi
                     const MatchingKeeper& keeper) {
   if (state_ == nullptr) state_ = std::make_unique<State>(config_, width_, height_, code_bits_);
   State& s = *state_;
-  const std::size_t first = product(s.row, s.width);
+  const std::size_t first = area(s.row, s.width);
   if (one_pass()) {
     s.match(left, right, s.sums.data());
     emit(s.sums.data());
@@ -222,7 +221,7 @@ void Matching::push(const CensusCode* left, const CensusCode* right, const RowSi
   s.row = 0;
   if (one_pass()) return;
   s.sweep_back(keeper.row);
-  for (int y = 0; y < s.height; ++y) emit(s.frame_sums.data() + product(y, s.width) * s.count);
+  for (int y = 0; y < s.height; ++y) emit(s.frame_sums.data() + area(y, s.width) * s.count);
 }
 
 int summed_cost_bits(const MatchingConfig& config, int code_bits) {

@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include "modules/area.hpp"
+
 namespace parallax {
 
 MatchingStage::MatchingStage(const sc_core::sc_module_name& name, const MatchingConfig& config, int code_bits,
@@ -10,17 +12,16 @@ MatchingStage::MatchingStage(const sc_core::sc_module_name& name, const Matching
     : Stage(name, context.clock, context.dataflow, timing.latency),
       kernel_(std::in_place, config, context.width, context.height, code_bits),
       changes_(context.height),
-      codes_(
-          context.width, context.width,
-          [this, context, code_bits, length = static_cast<std::size_t>(context.width) * config.range().count](
-              const CensusCode* left, const CensusCode* right) {
-            if (const auto change = changes_.at_row()) {
-              kernel_.emplace(*change, context.width, context.height, code_bits);
-            }
-            kernel_->push(
-                left, right, [this, length](const Cost* costs) { out_costs.send_row(costs, length); },
-                keeper_);
-          }),
+      codes_(context.width, context.width,
+             [this, context, code_bits, length = area(context.width, config.range().count)](
+                 const CensusCode* left, const CensusCode* right) {
+               if (const auto change = changes_.at_row()) {
+                 kernel_.emplace(*change, context.width, context.height, code_bits);
+               }
+               kernel_->push(
+                   left, right, [this, length](const Cost* costs) { out_costs.send_row(costs, length); },
+                   keeper_);
+             }),
       look_ahead_(look_ahead_pixels(context, kernel_->look_ahead_rows(), kernel_->look_ahead_pixels())),
       storage_(kernel_->storage_bits()),
       store_(kernel_->store()),

@@ -66,6 +66,8 @@ TEST(Replacement, WhatHasNoSlotOrNotItsPortsIsReported) {
   EXPECT_EQ(run_machine(config, {{"censor", census}}).fault, "the pipeline has no slot censor");
   EXPECT_EQ(run_machine(config, {{"subpixel", census}}).fault,
             "what stands in the slot subpixel has no port in_costs for the tokens there");
+  EXPECT_EQ(run_machine(config, {{"output_packing", census}}).fault,
+            "what stands in the slot output_packing has no port out_bursts for the tokens there");
 }
 
 }  // namespace replacement_test
