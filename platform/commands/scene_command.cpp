@@ -12,6 +12,7 @@
 
 #include "platform/commands/command_context.hpp"
 #include "platform/commands/common_options.hpp"
+#include "platform/images/image_codecs.hpp"
 #include "platform/results/output_folder.hpp"
 #include "platform/results/result_images.hpp"
 #include "platform/scene/scene.hpp"
@@ -53,7 +54,7 @@ int write_scene(SceneOptions options) {
     const SceneTruth truth = scene.truth(frame);
     const std::string suffix = options.frames == 1 ? ".png" : fmt::format("_{:0{}}.png", frame, digits);
     const auto write = [&](const char* name, const cv::Mat& image) {
-      folder.write(name + suffix, encode_png(image));
+      folder.write(name + suffix, encode_image(".png", image));
     };
     write("disp_gt", truth.disparity);
     write("mask_nocc", truth.mask);

@@ -5,10 +5,10 @@
 
 #include <algorithm>
 #include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
+#include "platform/images/image_codecs.hpp"
 #include "platform/input/stderr_capture.hpp"
 #include "tlm/error.hpp"
 
@@ -37,7 +37,7 @@ cv::Mat decode(const fs::path& path) {
   {
     const StderrCapture capture;
     try {
-      image = cv::imread(path.string(), cv::IMREAD_UNCHANGED);
+      image = read_image(path.string());
     } catch (const cv::Exception&) {
       image.release();
     }

@@ -7,8 +7,8 @@
 #include <array>
 #include <filesystem>
 #include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 
+#include "platform/images/image_codecs.hpp"
 #include "platform/input/file_storage.hpp"
 #include "platform/input/input_file.hpp"
 #include "platform/results/output_file.hpp"
@@ -49,7 +49,7 @@ cv::Mat image(const std::string& path) {
   cv::Mat mat;
   try {
     if (!bytes.empty()) {
-      mat = cv::imdecode(bytes, cv::IMREAD_UNCHANGED);
+      mat = decode_image(bytes);
     }
   } catch (const cv::Exception&) {
     mat.release();
@@ -120,11 +120,9 @@ std::vector<std::string> write_raw_maps(const std::string& path, const RawMaps& 
   }
   std::vector<std::string> names;
   for (const NamedMap& named : kMaps) {
-    std::vector<std::uint8_t> bytes;
-    cv::imencode(extension, maps.*named.map, bytes);
     const std::string name = fmt::format("{}_{}{}", target.stem().string(), named.name, extension);
     names.push_back((target.parent_path() / name).string());
-    write_file(names.back(), bytes);
+    write_file(names.back(), encode_image(extension, maps.*named.map));
   }
   return names;
 }

@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <fstream>
 #include <iterator>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
 #include "platform/config/preset.hpp"
+#include "platform/images/image_codecs.hpp"
 #include "platform/report/run_report.hpp"
 #include "platform/results/result_images.hpp"
 #include "platform/validation/published_row.hpp"
@@ -45,12 +45,12 @@ std::vector<ReportImage> images_of(const fs::path& folder) {
   std::vector<ReportImage> images;
   for (const PageImage& wanted : kImages) {
     const fs::path path = folder / frame / wanted.file;
-    cv::Mat image = fs::exists(path, error) ? cv::imread(path.string(), cv::IMREAD_UNCHANGED) : cv::Mat();
+    cv::Mat image = fs::exists(path, error) ? read_image(path.string()) : cv::Mat();
     if (image.empty()) continue;
     const double scale = std::min(1.0, static_cast<double>(kWidestImage) / image.cols);
     if (scale < 1) cv::resize(image, image, {}, scale, scale, cv::INTER_AREA);
     images.push_back({wanted.title, fmt::format("{}{}", wanted.caption, frame.empty() ? "" : ", first frame"),
-                      "image/png", encode_png(image)});
+                      "image/png", encode_image(".png", image)});
   }
   // A strip is small, but grows with the frames.
   constexpr std::uintmax_t kLargestStrip = 8 << 20;

@@ -3,6 +3,7 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "platform/images/image_codecs.hpp"
 #include "platform/results/disparity_bin.hpp"
 #include "platform/results/point_cloud.hpp"
 #include "platform/results/result_images.hpp"
@@ -13,7 +14,7 @@ void write_frame(OutputFolder& folder, const std::string& prefix, const FrameIma
                  const FrameResultOptions& options) {
   const DisparityView view(frame.disparities, frame.left.cols, frame.left.rows);
   const auto write_png = [&](const char* name, const cv::Mat& image) {
-    folder.write(prefix + name, encode_png(image));
+    folder.write(prefix + name, encode_image(".png", image));
   };
   const cv::Mat colors = disparity_colors(view, options.colors);
   const Legend legend = disparity_legend(options.colors);

@@ -4,8 +4,8 @@
 #include <cstdlib>
 #include <fstream>
 #include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 
+#include "platform/images/image_codecs.hpp"
 #include "tlm/error.hpp"
 #include "tlm/units.hpp"
 
@@ -18,10 +18,10 @@ constexpr std::uint8_t kScored = 255;
 
 std::string size_text(int width, int height) { return std::to_string(width) + "x" + std::to_string(height); }
 
-cv::Mat read_image(const char* what, const std::string& path, int width, int height) {
+cv::Mat image_of_size(const char* what, const std::string& path, int width, int height) {
   cv::Mat image;
   // OpenCV writes a warning of its own about a file that it cannot open.
-  if (std::ifstream(path).good()) image = cv::imread(path, cv::IMREAD_UNCHANGED);
+  if (std::ifstream(path).good()) image = read_image(path);
   if (image.empty()) throw UserError(path + ": cannot read the " + what + " (missing, or not an image)");
   if (image.cols != width || image.rows != height) {
     throw UserError(path + ": the " + what + " is " + size_text(image.cols, image.rows) +
@@ -51,14 +51,14 @@ int GroundTruth::error(std::size_t pixel, const Disparity& found) const {
 }
 
 GroundTruth read_ground_truth(const std::string& path, const std::string& mask_path, int width, int height) {
-  const cv::Mat truth = read_image("ground truth", path, width, height);
+  const cv::Mat truth = image_of_size("ground truth", path, width, height);
   if (truth.type() != CV_16UC1) {
     throw UserError(path + ": the ground truth is " + format_text(truth) +
                     ", it must be 16 bit with 1 channel (disparity * 256, 0 = unknown)");
   }
   GroundTruth result{width, height, pixels_of<std::uint16_t>(truth), {}};
   if (!mask_path.empty()) {
-    const cv::Mat mask = read_image("ground-truth mask", mask_path, width, height);
+    const cv::Mat mask = image_of_size("ground-truth mask", mask_path, width, height);
     if (mask.type() != CV_8UC1) {
       throw UserError(mask_path + ": the ground-truth mask is " + format_text(mask) +
                       ", it must be 8 bit with 1 channel (255 = score)");

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
-#include <stdexcept>
 #include <string>
 
 #include "tlm/units.hpp"
@@ -30,12 +28,6 @@ cv::Mat picture(const DisparityView& map, const Color& color) {
 cv::Vec3b color_of(const CauseStyle& style) { return {style.rgb[2], style.rgb[1], style.rgb[0]}; }
 
 }  // namespace
-
-std::vector<unsigned char> encode_png(const cv::Mat& image) {
-  std::vector<unsigned char> bytes;
-  if (!cv::imencode(".png", image, bytes)) throw std::runtime_error("PNG encoder failed");
-  return bytes;
-}
 
 cv::Mat disparity_values(const DisparityView& map) {
   return picture(map, [](const Disparity& d, std::size_t) {

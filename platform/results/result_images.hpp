@@ -16,9 +16,6 @@
 
 namespace parallax {
 
-/// The bytes of a PNG file of a CV_8UC1, CV_16UC1 or CV_8UC3 (BGR) image.
-std::vector<unsigned char> encode_png(const cv::Mat& image);
-
 /// disparity.png, CV_16UC1: value = disparity * 256, 0 = invalid (the KITTI convention). A valid disparity of
 /// exactly 0 would read as invalid and is 1, that is 1/256 px.
 cv::Mat disparity_values(const DisparityView& map);

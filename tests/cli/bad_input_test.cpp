@@ -6,8 +6,9 @@
 #include <sys/stat.h>
 
 #include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 
+#include "platform/images/image_codecs.hpp"
+#include "platform/results/output_file.hpp"
 #include "tests/cli/program.hpp"
 #include "tests/platform/unprivileged.hpp"
 
@@ -31,7 +32,7 @@ class BadInput : public ::testing::Test {
   }
 
   void image(const std::string& name, const cv::Mat& pixels) const {
-    cv::imwrite((program_ / name).string(), pixels);
+    write_file(program_ / name, encode_image(fs::path(name).extension(), pixels));
   }
   void text(const std::string& name, const std::string& content) const {
     program_.folder().write(name, content);

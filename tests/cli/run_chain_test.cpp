@@ -4,11 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 
 #include "modules/rectification.hpp"
 #include "platform/config/configuration.hpp"
 #include "platform/config/preset.hpp"
+#include "platform/images/image_codecs.hpp"
 #include "platform/input/calibration.hpp"
 #include "platform/input/image_padding.hpp"
 #include "platform/input/map_builder.hpp"
@@ -79,9 +79,7 @@ TEST_P(RunChain, HostReceivesWhatTheKernelsCompute) {
   ConfigurationRequest request;
   request.assignments = test_case.settings;
   const MachineConfig config = load_configuration(request, {test::source_path("platform/presets")}).machine;
-  const auto read = [&](const std::string& name) {
-    return cv::imread((program / name).string(), cv::IMREAD_UNCHANGED);
-  };
+  const auto read = [&](const std::string& name) { return read_image((program / name).string()); };
   const StereoImages raw{read("in/left.png"), read("in/right.png")};
   ASSERT_EQ(raw.left.size(), size);
   const RectificationMap map =

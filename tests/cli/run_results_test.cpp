@@ -7,8 +7,8 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 
+#include "platform/images/image_codecs.hpp"
 #include "platform/results/disparity_bin.hpp"
 #include "platform/results/result_images.hpp"
 #include "tests/cli/program.hpp"
@@ -38,9 +38,7 @@ class RunResults : public ::testing::Test {
     return outcome;
   }
 
-  cv::Mat image(const std::string& name) const {
-    return cv::imread((program_ / name).string(), cv::IMREAD_UNCHANGED);
-  }
+  cv::Mat image(const std::string& name) const { return read_image((program_ / name).string()); }
 
   std::vector<std::uint16_t> disparities(const std::string& name, int width, int height) const {
     const std::string bytes = program_.read(name);

@@ -11,25 +11,33 @@ else()
   set(PARALLAX_RTL ON)
 endif()
 
-# parallax_verilated(LIBRARY CLASS TOP [TRACE] [OPTIMISE -O1] [PARAMETER=VALUE...]): adds module TOP of tests/rtl/TOP.sv to the
-# static library LIBRARY, as class CLASS in header CLASS.h, compiled with -O2 or as told.
+# parallax_verilated(LIBRARY CLASS TOP [TRACE] [JOINED] [PARAMETER=VALUE...]): adds module TOP of tests/rtl/TOP.sv to the static
+# library LIBRARY, as class CLASS in header CLASS.h. TRACE: it can dump its waves. JOINED: it is one unit and not optimised,
+# for circuits that compile for longer than they run; otherwise a hundred units would read the same large headers.
 function(parallax_verilated library class top)
   set(folder ${PROJECT_SOURCE_DIR}/tests/rtl)
-  cmake_parse_arguments(PARSE_ARGV 3 "" "TRACE" "OPTIMISE" "")
-  if(NOT _OPTIMISE)
-    set(_OPTIMISE -O2)
-  endif()
+  cmake_parse_arguments(PARSE_ARGV 3 "" "TRACE;JOINED" "" "")
   set(trace)
   if(_TRACE)
-    set(trace TRACE)  # it can dump its waves
+    set(trace TRACE)
+  endif()
+  set(optimise OPT_SLOW -O0 OPT_FAST -O2 OPT_GLOBAL -O1)
+  if(_JOINED)
+    set(optimise)  # a source with options of its own does not join others
   endif()
   list(TRANSFORM _UNPARSED_ARGUMENTS PREPEND -G)
   if(NOT TARGET ${library})
     add_library(${library} STATIC EXCLUDE_FROM_ALL)
   endif()
   verilate(${library} SOURCES ${folder}/${top}.sv TOP_MODULE ${top} PREFIX ${class} INCLUDE_DIRS ${folder} ${trace}
-    VERILATOR_ARGS -Wall --no-timing --x-assign fast --x-initial fast ${_UNPARSED_ARGUMENTS}
-    OPT_SLOW -O0 OPT_FAST ${_OPTIMISE} OPT_GLOBAL -O1)
+    VERILATOR_ARGS -Wall --no-timing --x-assign fast --x-initial fast ${_UNPARSED_ARGUMENTS} ${optimise})
+  if(_JOINED)
+    get_target_property(sources ${library} SOURCES)
+    list(FILTER sources INCLUDE REGEX "/${class}\\.dir/.*\\.cpp$")
+    set_source_files_properties(${sources} PROPERTIES UNITY_GROUP ${class})
+    set_target_properties(${library} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+    target_compile_options(${library} PRIVATE -O0)
+  endif()
   # The generated code takes none of our warnings: it gets none of our options, and its headers are system headers.
   get_target_property(includes ${library} INTERFACE_INCLUDE_DIRECTORIES)
   set_target_properties(${library} PROPERTIES INTERFACE_SYSTEM_INCLUDE_DIRECTORIES "${includes}")

@@ -7,11 +7,11 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <sstream>
 #include <stdexcept>
 #include <string>
 
+#include "platform/images/image_codecs.hpp"
 #include "tests/paths.hpp"
 #include "tests/platform/temporary_folder.hpp"
 
@@ -28,9 +28,7 @@ class ProgramRun {
     results_ = nlohmann::json::parse(folder_.read("out/timing.json"));
   }
 
-  cv::Mat image(const std::string& name) const {
-    return cv::imread(folder_ / ("out/" + name), cv::IMREAD_UNCHANGED);
-  }
+  cv::Mat image(const std::string& name) const { return read_image(folder_ / ("out/" + name)); }
   double quality(const std::string& name) const { return results_.at("quality").at(name).at("value"); }
   double map_bytes_per_pixel_and_image() const {
     return results_.at("memory").at("map").at("bytes_per_pixel_and_image").at("value");

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "platform/images/image_codecs.hpp"
 #include "tests/fidelity/program.hpp"
 #include "tests/paths.hpp"
 
@@ -39,14 +40,14 @@ class ProgramQuality : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(ProgramQuality, FiguresEqualAnIndependentEvaluation) {
   const std::string folder = shared_data(GetParam()) + "/";
-  const cv::Mat truth = cv::imread(folder + "disp_gt.png", cv::IMREAD_UNCHANGED);
+  const cv::Mat truth = read_image(folder + "disp_gt.png");
   if (truth.empty()) GTEST_SKIP() << "no stereo data here";
   const ProgramRun run("--left " + folder + "left.png --right " + folder + "right.png --ground-truth " +
                        folder + "disp_gt.png --mask " + folder + "mask_nocc.png");
   const cv::Mat disparity = run.image("disparity.png");
   ASSERT_EQ(disparity.size(), truth.size());
   ASSERT_EQ(disparity.type(), CV_16UC1);
-  const Figures expected = figures(disparity, truth, cv::imread(folder + "mask_nocc.png", -1));
+  const Figures expected = figures(disparity, truth, read_image(folder + "mask_nocc.png"));
   constexpr double kRounding = 1e-9;
   EXPECT_EQ(run.quality("scored_pixels"), expected.scored);
   EXPECT_EQ(run.quality("valid_pixels"), expected.valid);
@@ -64,7 +65,7 @@ TEST_P(ProgramQuality, FiguresEqualAnIndependentEvaluation) {
 
   // A rectified pair passes the rectification stage unchanged but for the conversion to mono.
   cv::Mat difference;
-  cv::absdiff(run.image("left_rectified.png"), cv::imread(folder + "left.png", cv::IMREAD_GRAYSCALE),
+  cv::absdiff(run.image("left_rectified.png"), read_image(folder + "left.png", cv::IMREAD_GRAYSCALE),
               difference);
   EXPECT_LE(cv::norm(difference, cv::NORM_INF), 1);
 }

@@ -5,6 +5,8 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "platform/images/image_codecs.hpp"
+#include "platform/results/output_file.hpp"
 #include "tests/fidelity/program.hpp"
 #include "tests/paths.hpp"
 #include "tests/platform/test_calibrations.hpp"
@@ -42,7 +44,7 @@ void expect_rectified(const std::string& left, const std::string& right, const s
   const ProgramRun run("--left " + left + " --right " + right + " --calibration " + calibration + " " +
                        options);
   EXPECT_LE(run.map_bytes_per_pixel_and_image(), 1.0);
-  const Reference expected = reference(cv::imread(left, cv::IMREAD_GRAYSCALE), calibration);
+  const Reference expected = reference(read_image(left, cv::IMREAD_GRAYSCALE), calibration);
   cv::Mat difference;
   cv::absdiff(run.image("left_rectified.png"), expected.image, difference);
   difference.setTo(0, ~expected.inside);
@@ -90,7 +92,7 @@ TEST(ProgramRectification, Fisheye) {
   random.fill(picture, cv::RNG::UNIFORM, 0, 256);
   cv::GaussianBlur(picture, picture, {}, 1.5);
   cv::normalize(picture, picture, 0, 255, cv::NORM_MINMAX);
-  cv::imwrite(folder / "picture.png", picture);
+  write_file(folder / "picture.png", encode_image(".png", picture));
   expect_rectified(folder / "picture.png", folder / "picture.png", calibration,
                    "--set rectification.window=255");
 }

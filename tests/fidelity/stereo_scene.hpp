@@ -6,12 +6,12 @@
 #include <cmath>
 #include <filesystem>
 #include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "platform/images/image_codecs.hpp"
 #include "platform/results/ground_truth.hpp"
 #include "tests/paths.hpp"
 
@@ -33,8 +33,8 @@ inline std::optional<StereoScene> shared_scene(const std::string& name, int disp
   StereoScene scene;
   scene.name = name;
   scene.disparities = disparities;
-  scene.left = cv::imread(folder + "left.png", cv::IMREAD_GRAYSCALE);
-  scene.right = cv::imread(folder + "right.png", cv::IMREAD_GRAYSCALE);
+  scene.left = read_image(folder + "left.png", cv::IMREAD_GRAYSCALE);
+  scene.right = read_image(folder + "right.png", cv::IMREAD_GRAYSCALE);
   scene.truth =
       read_ground_truth(folder + "disp_gt.png", folder + "mask_nocc.png", scene.left.cols, scene.left.rows);
   return scene;
@@ -69,9 +69,9 @@ inline std::optional<StereoScene> aloe_scene() {
   const std::string folder = "/usr/share/doc/opencv-doc/examples/data/";
   if (!std::filesystem::exists(folder + "aloeGT.png")) return std::nullopt;
   constexpr int kReduction = 3;
-  const cv::Mat left = cv::imread(folder + "aloeL.jpg", cv::IMREAD_GRAYSCALE);
-  const cv::Mat right = cv::imread(folder + "aloeR.jpg", cv::IMREAD_GRAYSCALE);
-  const cv::Mat truth = cv::imread(folder + "aloeGT.png", cv::IMREAD_GRAYSCALE);
+  const cv::Mat left = read_image(folder + "aloeL.jpg", cv::IMREAD_GRAYSCALE);
+  const cv::Mat right = read_image(folder + "aloeR.jpg", cv::IMREAD_GRAYSCALE);
+  const cv::Mat truth = read_image(folder + "aloeGT.png", cv::IMREAD_GRAYSCALE);
   StereoScene scene;
   scene.name = "aloe/3";
   const cv::Size size(left.cols / kReduction, left.rows / kReduction);

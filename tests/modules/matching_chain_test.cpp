@@ -7,6 +7,7 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "platform/images/image_codecs.hpp"
 #include "tests/modules/naive_census.hpp"
 #include "tests/modules/naive_consistency.hpp"
 #include "tests/modules/naive_matching.hpp"
@@ -41,7 +42,7 @@ struct Scene {
 /// size.
 Scene load_aloe(int shrink) {
   const std::string folder = "/usr/share/doc/opencv-doc/examples/data/";
-  const auto load = [&](const char* name) { return cv::imread(folder + name, cv::IMREAD_GRAYSCALE); };
+  const auto load = [&](const char* name) { return read_image(folder + name, cv::IMREAD_GRAYSCALE); };
   Scene scene{load("aloeL.jpg"), load("aloeR.jpg"), load("aloeGT.png"), {}};
   if (scene.left.empty() || scene.right.empty() || scene.truth.empty()) return {};
   const cv::Size size = scene.left.size() / shrink;

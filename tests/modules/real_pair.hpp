@@ -3,7 +3,6 @@
 #pragma once
 
 #include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <string>
 #include <vector>
 
@@ -12,6 +11,7 @@
 #include "modules/matching.hpp"
 #include "modules/subpixel.hpp"
 #include "modules/uniqueness.hpp"
+#include "platform/images/image_codecs.hpp"
 #include "tests/modules/images.hpp"
 #include "tests/paths.hpp"
 
@@ -19,7 +19,7 @@ namespace parallax::test {
 
 /// An empty image if there is no such file.
 inline cv::Mat load_shared(const std::string& name, int flags = cv::IMREAD_GRAYSCALE) {
-  return cv::imread(shared_data(name), flags);
+  return read_image(shared_data(name), flags);
 }
 
 inline Grid<Gray> to_grid(const cv::Mat& image) {

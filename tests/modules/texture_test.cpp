@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "modules/texture.hpp"
+#include "platform/images/image_codecs.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
-
-#include <opencv2/imgcodecs.hpp>
 
 #include "tests/modules/disparity_image.hpp"
 #include "tests/modules/naive_texture.hpp"
@@ -103,7 +102,7 @@ TEST(Texture, LargestImage) {
 }
 
 TEST(Texture, RealImage) {
-  const cv::Mat gray = cv::imread(shared_data("kitti2012_000000/left.png"), cv::IMREAD_GRAYSCALE);
+  const cv::Mat gray = read_image(shared_data("kitti2012_000000/left.png"), cv::IMREAD_GRAYSCALE);
   if (gray.empty()) GTEST_SKIP() << "no stereo data here";
   GrayImage image(gray.cols, gray.rows);
   std::copy(gray.begin<Gray>(), gray.end<Gray>(), image.pixels.begin());

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "platform/results/ground_truth.hpp"
+#include "platform/images/image_codecs.hpp"
+#include "platform/results/output_file.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +9,6 @@
 #include <fstream>
 #include <map>
 #include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 
 #include "tlm/error.hpp"
 
@@ -28,7 +29,7 @@ class EvaluationFiles : public ::testing::Test {
 
   std::string write(const std::string& name, const cv::Mat& image) const {
     const std::string path = (folder_ / name).string();
-    cv::imwrite(path, image);
+    write_file(path, encode_image(fs::path(name).extension(), image));
     return path;
   }
 

@@ -5,12 +5,13 @@
 
 #include <fstream>
 #include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "error_line.hpp"
+#include "platform/images/image_codecs.hpp"
 #include "platform/input/image_padding.hpp"
 #include "platform/input/stderr_capture.hpp"
+#include "platform/results/output_file.hpp"
 #include "platform/scene/scene_hash.hpp"
 #include "temporary_folder.hpp"
 #include "tlm/error.hpp"
@@ -40,7 +41,7 @@ cv::Mat grey(int width, int height, std::uint64_t seed = 1) {
 
 void save(const fs::path& path, const cv::Mat& image) {
   fs::create_directories(path.parent_path());
-  ASSERT_TRUE(cv::imwrite(path.string(), image)) << path;
+  write_file(path, encode_image(path.extension(), image));
 }
 
 void save_bytes(const fs::path& path, const std::string& bytes) {

@@ -7,11 +7,11 @@
 #include <cmath>
 #include <limits>
 #include <opencv2/calib3d.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "modules/map_codec.hpp"
 #include "modules/rectification.hpp"
+#include "platform/images/image_codecs.hpp"
 #include "platform/input/map_fit.hpp"
 #include "tests/paths.hpp"
 #include "tests/platform/test_calibrations.hpp"
@@ -291,9 +291,9 @@ TEST_P(RealCalibration, EncodesBelowOneByteAndRectifiesLikeRemap) {
     GTEST_SKIP() << "no shared data";
   }
   const bool sequence = std::filesystem::exists(folder + "/left_00.png");
-  const cv::Mat left = cv::imread(folder + (sequence ? "/left_00.png" : "/left.png"), cv::IMREAD_GRAYSCALE);
+  const cv::Mat left = read_image(folder + (sequence ? "/left_00.png" : "/left.png"), cv::IMREAD_GRAYSCALE);
   const cv::Mat right =
-      cv::imread(folder + (sequence ? "/right_00.png" : "/right.png"), cv::IMREAD_GRAYSCALE);
+      read_image(folder + (sequence ? "/right_00.png" : "/right.png"), cv::IMREAD_GRAYSCALE);
   const Calibration original = read_calibration({folder + "/calib.yml"});
   check_size(original, {left.cols, left.rows});
   for (int fraction_bits = 0; fraction_bits <= 8; ++fraction_bits) {

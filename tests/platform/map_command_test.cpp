@@ -7,13 +7,14 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <numeric>
-#include <opencv2/imgcodecs.hpp>
 #include <sstream>
 
 #include "platform/commands/command_context.hpp"
+#include "platform/images/image_codecs.hpp"
 #include "platform/input/map_info.hpp"
 #include "platform/input/map_storage.hpp"
 #include "platform/input/raw_map_file.hpp"
+#include "platform/results/output_file.hpp"
 #include "tests/platform/test_calibrations.hpp"
 
 namespace parallax {
@@ -164,7 +165,7 @@ TEST_F(MapCommand, BadRawMapsAreNamed) {
             "expected");
   const std::string bad = write("x.tiff", "hello");
   EXPECT_EQ(message([&] { read_raw_maps({bad, bad, bad, bad}); }), bad + ": not an image that OpenCV reads");
-  cv::imwrite(path("gray.png"), cv::Mat(2, 2, CV_8UC1, cv::Scalar(1)));
+  write_file(path("gray.png"), encode_image(".png", cv::Mat(2, 2, CV_8UC1, cv::Scalar(1))));
   EXPECT_EQ(message([&] {
               read_raw_maps({path("gray.png"), bad, bad, bad});
             }),

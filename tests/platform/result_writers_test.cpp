@@ -3,11 +3,11 @@
 
 #include <cmath>
 #include <cstring>
-#include <opencv2/imgcodecs.hpp>
 #include <sstream>
 #include <string>
 
 #include "error_line.hpp"
+#include "platform/images/image_codecs.hpp"
 #include "platform/results/disparity_bin.hpp"
 #include "platform/results/point_cloud.hpp"
 #include "platform/results/result_images.hpp"
@@ -21,8 +21,6 @@ namespace parallax {
 namespace result_writers_test {
 
 using test::random_map;
-
-cv::Mat decoded(const std::vector<unsigned char>& bytes) { return cv::imdecode(bytes, cv::IMREAD_UNCHANGED); }
 
 /// Bit by bit: pixel i of a row occupies the row's bits 12 i to 12 i + 11, least significant first.
 int naive_unpack(const std::vector<unsigned char>& bytes, int width, int x, int y) {
@@ -74,7 +72,7 @@ TEST(DisparityPng, KittiConvention) {
   map[0] = {0, Cause::kMatched};
   map[1] = {1, Cause::kMatched};
   map[2] = {0xFFE, Cause::kMatched};
-  const cv::Mat image = decoded(encode_png(disparity_values({map, width, height})));
+  const cv::Mat image = decode_image(encode_image(".png", disparity_values({map, width, height})));
   ASSERT_EQ(image.size(), cv::Size(width, height));
   ASSERT_EQ(image.type(), CV_16UC1);
   EXPECT_EQ(image.at<std::uint16_t>(0, 0), 1) << "disparity 0 is valid";
@@ -116,7 +114,7 @@ TEST(CauseColors, ColourAndLabel) {
   const int width = 320, height = 20;
   const std::vector<Disparity> map = random_map(width, height, 9);
   const cv::Mat colour = cause_colors({map, width, height});
-  const cv::Mat labels = decoded(encode_png(cause_labels({map, width, height})));
+  const cv::Mat labels = decode_image(encode_image(".png", cause_labels({map, width, height})));
   ASSERT_EQ(labels.size(), cv::Size(width, height));
   ASSERT_EQ(labels.type(), CV_8UC1);
   ASSERT_EQ(colour.size(), cv::Size(width, height));
@@ -185,7 +183,7 @@ TEST(GreyPng, RoundTrip) {
     image.at<std::uint8_t>(i / 9, i % 9) =
         static_cast<std::uint8_t>(scene_hash(1, static_cast<std::uint64_t>(i)));
   }
-  EXPECT_EQ(cv::norm(decoded(encode_png(image)), image, cv::NORM_INF), 0);
+  EXPECT_EQ(cv::norm(decode_image(encode_image(".png", image)), image, cv::NORM_INF), 0);
 }
 
 struct Vertex {

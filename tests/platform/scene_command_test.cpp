@@ -5,10 +5,10 @@
 
 #include <CLI/CLI.hpp>
 #include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <sstream>
 
 #include "platform/commands/command_context.hpp"
+#include "platform/images/image_codecs.hpp"
 #include "platform/input/image_input.hpp"
 #include "platform/scene/scene.hpp"
 #include "tests/platform/error_line.hpp"
@@ -42,9 +42,7 @@ TEST(SceneCommand, OnePair) {
   const Scene scene(config);
   const StereoImages images = scene.render(0);
   const SceneTruth truth = scene.truth(0);
-  const auto read = [&](const std::string& name) {
-    return cv::imread(folder / ("a/b/" + name), cv::IMREAD_UNCHANGED);
-  };
+  const auto read = [&](const std::string& name) { return read_image(folder / ("a/b/" + name)); };
   EXPECT_TRUE(same(read("left.png"), images.left));
   EXPECT_TRUE(same(read("right.png"), images.right));
   EXPECT_TRUE(same(read("disp_gt.png"), truth.disparity));

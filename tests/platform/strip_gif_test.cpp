@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "platform/results/strip_gif.hpp"
+#include "platform/images/image_codecs.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -7,7 +8,6 @@
 #include <csignal>
 #include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "platform/results/legend.hpp"
@@ -41,7 +41,7 @@ for number, frame in enumerate(ImageSequence.Iterator(gif)):
 print(json.dumps({"loop": gif.info["loop"], "durations": durations})))"));
   Animation gif{told["loop"], told["durations"], {}};
   for (std::size_t i = 0; i < gif.durations.size(); ++i) {
-    gif.frames.push_back(cv::imread(folder / (std::to_string(i) + ".png")));
+    gif.frames.push_back(read_image(folder / (std::to_string(i) + ".png"), cv::IMREAD_COLOR));
   }
   return gif;
 }
