@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "modules/texture.hpp"
-#include "platform/images/image_codecs.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include "platform/images/image_codecs.hpp"
 #include "tests/modules/disparity_image.hpp"
 #include "tests/modules/naive_texture.hpp"
 #include "tests/modules/user_error.hpp"

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "platform/results/ground_truth.hpp"
-#include "platform/images/image_codecs.hpp"
-#include "platform/results/output_file.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,6 +8,8 @@
 #include <map>
 #include <opencv2/core.hpp>
 
+#include "platform/images/image_codecs.hpp"
+#include "platform/results/output_file.hpp"
 #include "tlm/error.hpp"
 
 namespace parallax {

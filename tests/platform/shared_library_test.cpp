@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <stdexcept>
+#include <string>
+
 namespace parallax::shared_library_test {
 
 TEST(SharedLibrary, GivesItsFunctions) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "platform/results/strip_gif.hpp"
-#include "platform/images/image_codecs.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -10,6 +9,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "platform/images/image_codecs.hpp"
 #include "platform/results/legend.hpp"
 #include "platform/results/peak_memory.hpp"
 #include "platform/results/result_images.hpp"
