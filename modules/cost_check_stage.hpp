@@ -44,7 +44,7 @@ class CostCheckStage final : public Stage {
         storage_(kernel_->storage_bits()) {
     const std::size_t width = context.width;
     RasterSchedule raster;
-    raster.beats = groups;
+    raster.groups = groups;
     raster.reads.every = 0b01;
     raster.reads.last = 0b10;
     raster.writes.last = 0b1;

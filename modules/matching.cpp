@@ -12,6 +12,7 @@
 #include "modules/bit_packer.hpp"
 #include "modules/hamming_row.hpp"
 #include "modules/path_costs.hpp"
+#include "modules/require_range.hpp"
 #include "modules/token_formats.hpp"
 #include "tlm/error.hpp"
 
@@ -27,12 +28,6 @@ int path_count(unsigned paths) {
   int count = 0;
   for (; paths != 0; paths &= paths - 1) ++count;
   return count;
-}
-
-void check(const char* key, int value, int low, int high) {
-  if (value < low || value > high) {
-    throw UserError(fmt::format("matching.{} = {}: must be within {}..{}", key, value, low, high));
-  }
 }
 
 std::size_t count_of(const MatchingConfig& config) { return config.range().count; }
@@ -66,9 +61,9 @@ std::vector<Path> make_paths(const MatchingConfig& config, int width, bool turne
 }  // namespace
 
 void MatchingConfig::validate() const {
-  check("parallelism", parallelism, 1, kMaxDisparities);
-  check("iterations", iterations, 1, kMaxDisparities);
-  check("disparity_offset", disparity_offset, 0, kMaxDisparities - 1);
+  require_range("matching.parallelism", parallelism, 1, kMaxDisparities);
+  require_range("matching.iterations", iterations, 1, kMaxDisparities);
+  require_range("matching.disparity_offset", disparity_offset, 0, kMaxDisparities - 1);
   if (disparity_offset + iterations * parallelism > kMaxDisparities) {
     throw UserError(
         fmt::format("matching.disparity_offset + matching.iterations x matching.parallelism = {} + {} x {} = "
@@ -76,10 +71,10 @@ void MatchingConfig::validate() const {
                     disparity_offset, iterations, parallelism, disparity_offset + iterations * parallelism,
                     kMaxDisparities));
   }
-  check("recurrence_latency", recurrence_latency, 1, 1000);
-  check("cost_weight", cost_weight, 1, kMaxCostWeight);
-  check("p1", p1, 0, kMaxPenalty);
-  check("p2", p2, 0, kMaxPenalty);
+  require_range("matching.recurrence_latency", recurrence_latency, 1, 1000);
+  require_range("matching.cost_weight", cost_weight, 1, kMaxCostWeight);
+  require_range("matching.p1", p1, 0, kMaxPenalty);
+  require_range("matching.p2", p2, 0, kMaxPenalty);
   if (p1 >= p2) throw UserError(fmt::format("matching.p1 = {}: must be below matching.p2 = {}", p1, p2));
   if (paths == 0 || paths > kEightPaths) {
     throw UserError(

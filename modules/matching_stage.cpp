@@ -28,7 +28,7 @@ MatchingStage::MatchingStage(const sc_core::sc_module_name& name, const Matching
       frame_kept_(context.height) {
   const std::size_t width = context.width;
   RasterSchedule raster;
-  raster.beats = static_cast<std::uint32_t>(config.iterations);
+  raster.groups = static_cast<std::uint32_t>(config.iterations);
   raster.last_interval = static_cast<std::uint32_t>(config.recurrence_latency);
   raster.reads.first = 0b11;
   raster.writes.every = 0b1;

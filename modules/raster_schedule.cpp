@@ -7,10 +7,10 @@
 namespace parallax {
 namespace {
 
-unsigned at_beat(const PixelPorts& ports, std::uint32_t beat, std::uint32_t beats) {
+unsigned at_firing(const PixelPorts& ports, std::uint32_t group, std::uint32_t groups) {
   unsigned mask = ports.every;
-  if (beat == 0) mask |= ports.first;
-  if (beat + 1 == beats) mask |= ports.last;
+  if (group == 0) mask |= ports.first;
+  if (group + 1 == groups) mask |= ports.last;
   return mask;
 }
 
@@ -47,14 +47,16 @@ std::vector<Phase> pixel(const RasterSchedule& raster, const Kind& kind) {
   }
   if (kind.store != nullptr && !kind.first_row) consume = both(consume, kind.store->reads);
   if (kind.store != nullptr && !kind.last_row) produce = both(produce, kind.store->writes);
-  const bool all_beats = kind.reads || raster.writes.every != 0 || raster.reads_late.every != 0;
-  const std::uint32_t beats = all_beats ? raster.beats : 1;
+  const bool all_groups = kind.reads || raster.writes.every != 0 || raster.reads_late.every != 0;
+  const std::uint32_t groups = all_groups ? raster.groups : 1;
   Firings firings;
-  for (std::uint32_t beat = 0; beat < beats; ++beat) {
+  for (std::uint32_t group = 0; group < groups; ++group) {
     std::uint32_t interval = raster.timing.interval;
-    if (beat + 1 == beats) interval = std::max(interval, raster.last_interval);
-    firings.add(
-        fires().reads(at_beat(consume, beat, beats)).writes(at_beat(produce, beat, beats)).every(interval));
+    if (group + 1 == groups) interval = std::max(interval, raster.last_interval);
+    firings.add(fires()
+                    .reads(at_firing(consume, group, groups))
+                    .writes(at_firing(produce, group, groups))
+                    .every(interval));
   }
   return firings.phases();
 }

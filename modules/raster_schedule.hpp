@@ -20,7 +20,7 @@ struct StageContext {
   std::uint64_t pixels() const { return static_cast<std::uint64_t>(width) * height; }
 };
 
-/// What a raster stage does to its ports for one pixel. Each pixel takes `beats` firings; ports are read or
+/// What a raster stage does to its ports for one pixel. Each pixel takes `groups` firings; ports are read or
 /// written in each of them, in the first or in the last one.
 struct PixelPorts {
   PortMask every = 0;
@@ -44,7 +44,7 @@ struct RasterSchedule {
   };
   RowStore first_pass;
   RowStore second_pass;
-  std::uint32_t beats = 1;
+  std::uint32_t groups = 1;
   std::uint32_t last_interval = 1;  ///< cycles after a pixel's last firing, if more than timing.interval
   std::uint64_t look_ahead = 0;     ///< pixels, at most the frame's
   StageTiming timing;
@@ -55,7 +55,7 @@ struct RasterSchedule {
 std::uint64_t look_ahead_pixels(const StageContext& context, int rows, int pixels);
 
 /// The schedule of one frame. After the last pixel is in, the pixels still held back come out one in
-/// `interval` cycles (one in beats * interval where every beat writes). Row overhead follows the last pixel
+/// `interval` cycles (one in groups * interval where every group writes). Row overhead follows the last pixel
 /// of a row read, and, where the look-ahead is the frame, of a row written; frame overhead the last pixel
 /// written.
 Schedule make_schedule(const StageContext& context, const RasterSchedule& raster);

@@ -30,8 +30,10 @@ struct RectificationConfig {
 /// and offset (dx, dy) in 1/S px:
 ///   ix = x + floor(dx / S), fx = dx mod S (0..S-1); iy and fy likewise
 ///   p(i, j) = input at (clamp(i, 0, W-1), clamp(j, 0, H-1))
-///   sum = (S-fy) * ((S-fx) * p(ix, iy) + fx * p(ix+1, iy)) + fy * ((S-fx) * p(ix, iy+1) + fx * p(ix+1,
-///   iy+1)) out = (sum + half) >> 2F, half = S*S/2 (rounded down) for kNearest, 0 for kTruncate.
+///   upper = (S-fx) * p(ix, iy) + fx * p(ix+1, iy)
+///   lower = (S-fx) * p(ix, iy+1) + fx * p(ix+1, iy+1)
+///   out = ((S-fy) * upper + fy * lower + half) >> 2F
+///   half = S*S/2 (rounded down) for kNearest, 0 for kTruncate
 /// An offset of exactly +limit has fraction 0, so the neighbour beyond the window has weight 0 and the ring
 /// of `window` rows is all that is needed.
 ///

@@ -14,7 +14,7 @@ SubpixelStage::SubpixelStage(const sc_core::sc_module_name& name, const Subpixel
       storage_(kernel_->storage_bits()) {
   const std::size_t width = context.width;
   RasterSchedule raster;
-  raster.beats = groups;
+  raster.groups = groups;
   raster.reads.every = 0b1;
   raster.writes.last = 0b1;
   raster.timing = timing;

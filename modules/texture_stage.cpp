@@ -19,7 +19,7 @@ TextureStage::TextureStage(const sc_core::sc_module_name& name, const TextureCon
   set_schedule(make_schedule(context, raster));
   const RowSink<Disparity> emit = [this, width](const Disparity* out) { out_disparity.send_row(out, width); };
   in_left.on_row(width, [this, emit](const Gray* row, std::size_t) {
-    if (const auto threshold = changes_.at_row()) kernel_.set_threshold(*threshold);
+    if (const auto change = changes_.at_row()) kernel_.set_threshold(change->enabled ? change->threshold : 0);
     kernel_.push_image(row, emit);
   });
   in_disparity.on_row(width,

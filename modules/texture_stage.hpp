@@ -22,15 +22,16 @@ class TextureStage final : public Stage {
   TextureStage(const sc_core::sc_module_name& name, const TextureConfig& config, const StageTiming& timing,
                const StageContext& context);
 
-  /// The threshold for the next frame that has none yet (0: nothing is judged), or none: as before.
-  void set_threshold(const std::optional<int>& threshold) { changes_.push(threshold); }
+  /// The configuration for the next frame that has none yet, or none: as before. Only the threshold may
+  /// change, and whether a filter that was built on is.
+  void configure(const std::optional<TextureConfig>& config) { changes_.push(config); }
   /// Into the image; disparities are not looked ahead to.
   std::uint64_t look_ahead() const { return look_ahead_; }
   Bits storage() const { return Bits(kernel_.storage_bits()); }
 
  private:
   Texture kernel_;
-  FrameChanges<int> changes_;  // by the image, which comes first
+  FrameChanges<TextureConfig> changes_;  // by the image, which comes first
   std::uint64_t look_ahead_;
 };
 

@@ -9,4 +9,12 @@ std::string shared_data(const std::string& name) { return source_path("../shared
 
 std::string program_path() { return PARALLAX_PROGRAM; }
 
+bool sanitized() {
+#ifdef PARALLAX_SANITIZED
+  return true;
+#else
+  return false;
+#endif
+}
+
 }  // namespace parallax::test

@@ -148,7 +148,7 @@ bool CountSimulation::fire(std::size_t stage) {
   const Segment& segment = program.segments[at.segment];
   const Run& run = program.runs[segment.first + at.run];
   const Action& action = actions_[run.action];
-  std::uint64_t firings = segment.runs == 1 ? segment.repeat - at.pass : run.count - at.done;
+  std::uint64_t firings = segment.runs == 1 ? segment.repeat - at.repetition : run.count - at.done;
   for (std::size_t i = action.consume; i < action.consume_end; ++i) {
     firings = std::min(firings, fifos_[lists_[i]].held);
   }
@@ -189,17 +189,17 @@ void CountSimulation::step(std::size_t stage, std::uint64_t firings) {
   Position& at = positions_[stage];
   const Segment& segment = program.segments[at.segment];
   if (segment.runs == 1) {
-    at.pass += firings;
+    at.repetition += firings;
   } else {
     at.done += firings;
     if (at.done < program.runs[segment.first + at.run].count) return;
     at.done = 0;
     if (++at.run < segment.runs) return;
     at.run = 0;
-    ++at.pass;
+    ++at.repetition;
   }
-  if (at.pass < segment.repeat) return;
-  at.pass = 0;
+  if (at.repetition < segment.repeat) return;
+  at.repetition = 0;
   ++segments_begun_;
   if (++at.segment < program.segments.size()) return;
   at.segment = 0;
@@ -213,7 +213,7 @@ bool CountSimulation::returns(Recurrence& recurrence, Within within) {
   for (const Position& at : positions_) {
     state_.insert(state_.end(), {at.run, at.done, at.pipe.size()});
     for (const Run& run : at.pipe) state_.insert(state_.end(), {run.count, run.action});
-    if (within == Within::kFrames) state_.insert(state_.end(), {at.segment, at.pass});
+    if (within == Within::kFrames) state_.insert(state_.end(), {at.segment, at.repetition});
   }
   if (state_ == recurrence.kept) return true;
   if (++recurrence.age == recurrence.oldest) {
@@ -252,17 +252,17 @@ bool CountSimulation::repeats_for_ever() {
 // Repeats what has happened since the kept state as often as no stage gets to the end of its segment by it.
 void CountSimulation::leap() {
   std::uint64_t periods = std::numeric_limits<std::uint64_t>::max();
-  const auto passes = [&](std::size_t stage) {
-    return positions_[stage].pass - in_segments_.positions[stage].pass;
+  const auto repetitions = [&](std::size_t stage) {
+    return positions_[stage].repetition - in_segments_.positions[stage].repetition;
   };
   for (std::size_t stage = 0; stage < programs_.size(); ++stage) {
-    if (passes(stage) == 0) continue;
+    if (repetitions(stage) == 0) continue;
     const std::uint64_t left =
-        programs_[stage].segments[positions_[stage].segment].repeat - positions_[stage].pass;
-    periods = std::min(periods, (left - 1) / passes(stage));
+        programs_[stage].segments[positions_[stage].segment].repeat - positions_[stage].repetition;
+    periods = std::min(periods, (left - 1) / repetitions(stage));
   }
   for (std::size_t stage = 0; stage < programs_.size(); ++stage) {
-    positions_[stage].pass += periods * passes(stage);
+    positions_[stage].repetition += periods * repetitions(stage);
   }
 }
 

@@ -75,7 +75,7 @@ class CountSimulation {
   };
   struct Position {  // of a stage
     std::size_t segment = 0;
-    std::uint64_t pass = 0;
+    std::uint64_t repetition = 0;
     std::size_t run = 0;
     std::uint64_t done = 0;  // of the run
     std::uint64_t frames = 0;

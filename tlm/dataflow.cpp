@@ -13,9 +13,8 @@
 namespace parallax {
 namespace {
 
-// Between two looks for periodic motion at the beginning of a run.
-constexpr std::uint64_t kLeastFirings = 200;
-// Each failure doubles the firings until the next look, so many times.
+// Each look for periodic motion that fails doubles the firings until the next one within a run(), so many
+// times.
 constexpr unsigned kMostPatience = 2;
 
 }  // namespace
@@ -111,8 +110,7 @@ bool Dataflow::attempt_leaps() {
 void Dataflow::run() {
   notified_ = true;  // so wakes from within need no event
   // Everybody has come to rest before, which is where periodic motion shows best.
-  bool eager = leap_interval_ != 0 && firings_ >= std::min(leap_interval_, kLeastFirings << failures_) &&
-               attempt_leaps();
+  bool eager = leap_interval_ != 0 && firings_ >= leap_interval_ && attempt_leaps();
   for (;;) {
     while (step()) {
       if (leap_interval_ != 0 && firings_ >= leap_interval_ << failures_) eager |= attempt_leaps();

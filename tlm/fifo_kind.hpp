@@ -8,28 +8,23 @@ namespace parallax {
 /// Which circuit a stream's FIFO is, that is by how many edges a token and a slot are delayed. With w the
 /// edge that writes token i, and r the edge that reads token i - depth:
 enum class FifoKind {
-  /// Described by its two offsets, FifoConfig::write_to_read and read_to_write: token i is readable at w +
-  /// write_to_read, its slot writable at r + read_to_write. Any FIFO whose delays do not depend on how full
-  /// it is
-  /// can be described so; the default, (1, 1), is a registered one. An offset of 0 is a combinational path
-  /// and
-  /// needs one clock on both sides. Between clocks, the first edge strictly after w (or r) counts as 1.
+  /// Described by its two offsets, FifoConfig::write_to_read and read_to_write: token i is readable at
+  /// w + write_to_read, its slot writable at r + read_to_write. Any FIFO whose delays do not depend on how
+  /// full it is can be described so; the default, (1, 1), is a registered one. An offset of 0 is a
+  /// combinational path and needs one clock on both sides. Between clocks, the first edge strictly after w
+  /// (or r) counts as 1.
   kFree,
   /// Flags and data in registers. Readable at w + 1, writable at r + 1. One clock.
   kRegistered,
   /// An empty one hands on what is written in the same cycle. Readable at w, writable at r + 1. One clock.
   kFirstWordFallThrough,
   /// A RAM whose clocked read port is the output register. Readable at w + 2, writable at r + 1; the token in
-  /// the
-  /// output register counts towards the depth. One clock.
+  /// the output register counts towards the depth. One clock.
   kBlockRam,
   /// Gray-coded pointers, each synchronised to the other side by `synchroniser_stages` registers that the
-  /// flags are
-  /// derived from without a further one. The first edge of the other clock strictly after w (or r) captures
-  /// the
-  /// pointer; the token is readable, the slot writable, `synchroniser_stages` edges later. Also where both
-  /// clocks
-  /// have the same frequency, or are one.
+  /// flags are derived from without a further one. The first edge of the other clock strictly after w (or r)
+  /// captures the pointer; the token is readable, the slot writable, `synchroniser_stages` edges later. Also
+  /// where both clocks have the same frequency, or are one.
   kAsynchronous,
 };
 

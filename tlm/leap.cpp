@@ -100,11 +100,11 @@ void Leap::scan(Member& member) {
   if (member.ended) return;
   if (member.unit > 1) {
     const Schedule::Segment& segment = schedule.segments()[member.cursor.segment];
-    std::uint64_t into_pass = member.cursor.count;
+    std::uint64_t gone = member.cursor.count;
     for (std::uint32_t i = 0; i < member.cursor.phase; ++i) {
-      into_pass += schedule.phases()[segment.first_phase + i].count;
+      gone += schedule.phases()[segment.first_phase + i].count;
     }
-    member.scanned += (segment.repeat - member.cursor.pass) * member.unit - into_pass;
+    member.scanned += (segment.repeat - member.cursor.repetition) * member.unit - gone;
     member.ended = true;
     return;
   }
@@ -116,9 +116,9 @@ void Leap::scan(Member& member) {
   const Schedule::Segment* const all = schedule.segments().data();
   const Phase* const phases = schedule.phases().data();
   // The cursor, a variable each: a Position that is copied as one word after a part of it was written is a
-  // store-forwarding stall.
+  // store-forwarding stall (some 4 ns).
   std::size_t number = member.cursor.segment;
-  std::uint64_t pass = member.cursor.pass;
+  std::uint64_t repetition = member.cursor.repetition;
   std::uint32_t phase_number = member.cursor.phase;
   std::uint32_t count = member.cursor.count;
   std::uint64_t scanned = member.scanned;
@@ -148,26 +148,26 @@ void Leap::scan(Member& member) {
       event.produce = mask(loose >> 8U);
       event.pending = false;
       event.position.segment = number;
-      event.position.pass = pass;
+      event.position.repetition = repetition;
       event.position.phase = phase_number;
       event.position.count = count;
       ++scanned;
       if (++count < phase.count) continue;
-    } else if (segment.phase_count == 1) {  // all passes are alike
-      scanned += phase.count - count + (segment.repeat - pass - 1) * phase.count;
-      pass = segment.repeat - 1;
+    } else if (segment.phase_count == 1) {  // all repetitions are alike
+      scanned += phase.count - count + (segment.repeat - repetition - 1) * phase.count;
+      repetition = segment.repeat - 1;
     } else {
       scanned += phase.count - count;
     }
     count = 0;
     if (++phase_number < segment.phase_count) continue;
     phase_number = 0;
-    if (++pass < segment.repeat) continue;
-    pass = 0;
+    if (++repetition < segment.repeat) continue;
+    repetition = 0;
     ++number;
   }
   member.cursor.segment = number;
-  member.cursor.pass = pass;
+  member.cursor.repetition = repetition;
   member.cursor.phase = phase_number;
   member.cursor.count = count;
   member.scanned = scanned;
@@ -291,11 +291,11 @@ std::uint64_t Leap::possible_periods(Link& link, std::uint64_t wanted) {
     if (!balanced) periods = std::min(periods, known / link.reads - periods_);
     const std::uint64_t end = std::min(link.base_read + (periods_ + periods) * link.reads, link.base_written);
     for (; link.sure_reads < end; ++link.sure_reads) {
-      const std::uint64_t pass = (link.sure_reads - link.base_read) / link.reads;
+      const std::uint64_t period = (link.sure_reads - link.base_read) / link.reads;
       const std::uint64_t index = (link.sure_reads - link.base_read) % link.reads;
-      const Cycles needed = stream.read_watch_.ready[index] + Cycles(period_ * as_signed(pass + 1));
+      const Cycles needed = stream.read_watch_.ready[index] + Cycles(period_ * as_signed(period + 1));
       if (stream.forward(stream.write_date(link.sure_reads)) > needed) {
-        periods = std::min(periods, pass - periods_);
+        periods = std::min(periods, period - periods_);
         break;
       }
     }
@@ -307,11 +307,11 @@ std::uint64_t Leap::possible_periods(Link& link, std::uint64_t wanted) {
         std::min(link.base_written + (periods_ + periods) * link.writes, link.base_read + stream.depth());
     for (; link.sure_writes < end; ++link.sure_writes) {
       if (link.sure_writes < stream.depth()) continue;
-      const std::uint64_t pass = (link.sure_writes - link.base_written) / link.writes;
+      const std::uint64_t period = (link.sure_writes - link.base_written) / link.writes;
       const std::uint64_t index = (link.sure_writes - link.base_written) % link.writes;
-      const Cycles needed = stream.write_watch_.ready[index] + Cycles(period_ * as_signed(pass + 1));
+      const Cycles needed = stream.write_watch_.ready[index] + Cycles(period_ * as_signed(period + 1));
       if (stream.backward(stream.read_date(link.sure_writes - stream.depth())) > needed) {
-        periods = std::min(periods, pass - periods_);
+        periods = std::min(periods, period - periods_);
         break;
       }
     }

@@ -25,6 +25,12 @@ namespace parallax {
 /// What is not periodic takes part one by one: streams from or to kernel time or another clock, and those
 /// that a schedule reads or writes at irregular firings (bursts, words of the map). Their dates must not hold
 /// any stage back; a leap ends before the firing at which one would.
+///
+/// In the order of what happens: leap_search.cpp finds which stages are *active* (have moved lately), which
+/// of their streams (a *link*) both ends use in every *unit* of their schedule, which makes it *core*, else
+/// *loose*, and a period that they may have; leap_observe.cpp goes through one; leap.cpp goes on from it, as
+/// far as schedules, core links (*open* until all their tokens are certain) and the *events* of loose links
+/// allow; leap_state.cpp puts the stages and streams where they have come to.
 class Leap {
  public:
   Leap(Dataflow& dataflow, const ClockDomain& clock) : dataflow_(dataflow), clock_(clock) {}

@@ -5,12 +5,12 @@
 #include <cstdint>
 #include <limits>
 
+#include "tlm/leap_history.hpp"
 #include "tlm/schedule.hpp"
 
 namespace parallax::leap_detail {
 
-constexpr std::uint64_t kLargestUnit =
-    64;  // firings of a unit, and of a period: within the history that is kept
+constexpr std::uint64_t kLargestUnit = kLeapHistory;  // firings of a unit, and of a period
 constexpr std::uint64_t kAlways = std::numeric_limits<std::uint64_t>::max();
 
 inline std::int64_t as_signed(std::uint64_t count) { return static_cast<std::int64_t>(count); }

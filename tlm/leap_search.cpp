@@ -70,7 +70,7 @@ bool Leap::attempt() {
 // and the streams that go along with it. Where a stage touches a stream irregularly, the stream is not core,
 // for either end.
 bool Leap::classify() {
-  for (Link& link : links_) link.core = link.written && link.read && link.stream->same_clock_;
+  for (Link& link : links_) link.core = link.written && link.read && link.stream->same_frequency_;
   for (bool changed = true; changed;) {
     changed = false;
     for (Member& member : members_) {
@@ -125,8 +125,8 @@ bool Leap::classify() {
 }
 
 // The firings after which the stage does the same again, in what it does to core ports: one, where they are
-// all alike, else a pass of the segment. In a list of single phases, ports that only some firings touch are
-// `mixed`.
+// all alike, else a repetition of the segment. In a list of single phases, ports that only some firings touch
+// are `mixed`.
 bool Leap::find_unit(Member& member, PortMask& mixed_in, PortMask& mixed_out) {
   const Stage& stage = *member.stage;
   const Schedule& schedule = stage.schedule_;
@@ -145,7 +145,7 @@ bool Leap::find_unit(Member& member, PortMask& mixed_in, PortMask& mixed_out) {
         })) {
       return true;
     }
-    if (segment.repeat - stage.next_.pass < 3) return false;
+    if (segment.repeat - stage.next_.repetition < 3) return false;
     member.unit = 0;
     unsigned consume = 0;
     unsigned produce = 0;

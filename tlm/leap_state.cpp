@@ -57,7 +57,7 @@ void Leap::materialize(Member& member, std::uint64_t periods) {
     entered.push_back(stage.pipe_[(stage.entered_ - member.writes + i) & stage.pipe_mask_]);
     left.push_back(stage.pipe_[(stage.left_ - member.writes + i) & stage.pipe_mask_]);
   }
-  const auto shift = [this](std::uint64_t passes) { return Cycles(period_ * as_signed(passes + 1)); };
+  const auto shift = [this](std::uint64_t number) { return Cycles(period_ * as_signed(number + 1)); };
   const std::uint64_t added = periods * member.writes;
   for (std::uint64_t i = added - std::min(added, size); i < added; ++i) {
     const Stage::Firing& model = entered[i % member.writes];

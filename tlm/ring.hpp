@@ -25,7 +25,7 @@ class Ring {
     slots_[(first_ + size_++) & mask_] = value;
   }
   /// A new element with what its slot happens to hold: to be filled in, field by field. To copy one that has
-  /// just been made reads what was written in smaller pieces, a store-forwarding stall.
+  /// just been made reads what was written in smaller pieces, a store-forwarding stall (some 4 ns).
   T& add() {
     if (size_ == capacity_) grow();
     return slots_[(first_ + size_++) & mask_];

@@ -7,17 +7,13 @@
 #include <stdexcept>
 
 namespace parallax {
-namespace {
-
-constexpr std::uint32_t kPipeHistory = 64;  // firings that have left, for Leap
-
-}  // namespace
+namespace {}  // namespace
 
 Stage::Stage(const sc_core::sc_module_name& name, const ClockDomain& clock, Dataflow& dataflow,
              std::uint32_t latency)
     : sc_module(name), clock_(clock), dataflow_(dataflow), latency_(latency) {
   std::size_t size = 1;
-  while (size < latency + kPipeHistory) size *= 2;
+  while (size < latency + kLeapHistory) size *= 2;
   pipe_.resize(size);
   pipe_mask_ = size - 1;
   dataflow.add(*this);
@@ -311,14 +307,14 @@ void Stage::skip(Position& position, std::uint64_t firings) const {
       return;
     }
     if (position.phase == 0 && position.count == 0 && segment.repeat > 1) {
-      std::uint64_t pass = 0;
-      for (std::uint32_t i = 0; i < segment.phase_count; ++i) pass += phases[i].count;
-      const std::uint64_t passes = std::min(firings / pass, segment.repeat - position.pass);
-      firings -= passes * pass;
-      position.pass += passes;
-      if (position.pass == segment.repeat) {
+      std::uint64_t in_one = 0;
+      for (std::uint32_t i = 0; i < segment.phase_count; ++i) in_one += phases[i].count;
+      const std::uint64_t whole = std::min(firings / in_one, segment.repeat - position.repetition);
+      firings -= whole * in_one;
+      position.repetition += whole;
+      if (position.repetition == segment.repeat) {
         ++position.segment;
-        position.pass = 0;
+        position.repetition = 0;
         continue;
       }
       if (firings == 0) return;

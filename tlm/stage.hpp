@@ -11,6 +11,7 @@
 #include "tlm/clock_domain.hpp"
 #include "tlm/dataflow.hpp"
 #include "tlm/kept_records.hpp"
+#include "tlm/leap_history.hpp"
 #include "tlm/listeners.hpp"
 #include "tlm/schedule.hpp"
 #include "tlm/stage_activity.hpp"
@@ -34,11 +35,13 @@ struct FrameDates {
 /// the pipeline has room; it reads its inputs in s(k) and writes its outputs, all in the same cycle, in the
 /// first cycle w(k) >= s(k) + latency, after the firing before it has written, in which every one of them has
 /// room. The pipeline is `latency` registers with a handshake each: bubbles close up under back-pressure, and
-/// a firing enters when the firing `latency` firings before it leaves, s(k) >= w(k - latency). With latency 0
-/// reading and writing are one cycle. Firings that write nothing take no slot in the pipeline.
+/// a firing enters when the firing `latency` firings before it leaves, s(k) >= w(k - latency). Firings that
+/// write nothing take no slot in the pipeline: k counts those that write. With latency 0 reading and writing
+/// are one cycle.
 ///
 /// A subclass declares its ports (their order numbers the bits of PortMask), gives the schedule of one frame,
-/// and hangs its kernel on the rows of its inputs (Stream::on_row). Frames follow one another without end.
+/// and hangs its kernel on the rows of its inputs (Stream::on_row). Frames follow one another without end. A
+/// frame is once through the schedule here: who cuts an image into tiles has a stage go through one for each.
 class Stage : public sc_core::sc_module, public Actor {
  public:
   static constexpr std::size_t kMaxPorts = 8;
@@ -92,7 +95,7 @@ class Stage : public sc_core::sc_module, public Actor {
   // Leap compares the whole state of a stage with that of a period before, and moves all of it on at once:
   // the pipeline, the position, the statistics. Accessors would show every member and add nothing that holds.
   friend class Leap;
-  static constexpr std::uint64_t kStartsKept = 128;
+  static constexpr std::uint64_t kStartsKept = 2 * kLeapHistory;
 
   struct Firing {  // one that writes
     Cycles start;
@@ -119,11 +122,11 @@ class Stage : public sc_core::sc_module, public Actor {
     std::size_t segment = 0;
     std::uint32_t phase = 0;
     // Between `phase` and `count`: side by side they would be copied as one word right after one of them was
-    // written, a store-forwarding stall.
-    std::uint64_t pass = 0;
+    // written, a store-forwarding stall (some 4 ns).
+    std::uint64_t repetition = 0;
     std::uint32_t count = 0;
 
-    bool is_start() const { return count == 0 && phase == 0 && pass == 0 && segment == 0; }
+    bool is_start() const { return count == 0 && phase == 0 && repetition == 0 && segment == 0; }
   };
 
   // When the firing so many firings before the last one started.
@@ -158,8 +161,8 @@ class Stage : public sc_core::sc_module, public Actor {
     const Schedule::Segment& segment = schedule_.segments()[position.segment];
     if (++position.phase < segment.phase_count) return true;
     position.phase = 0;
-    if (++position.pass < segment.repeat) return true;
-    position.pass = 0;
+    if (++position.repetition < segment.repeat) return true;
+    position.repetition = 0;
     return ++position.segment != schedule_.segments().size();
   }
   const Phase& phase_at(const Position& position) const {

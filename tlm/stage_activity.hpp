@@ -20,8 +20,8 @@ enum class StageActivity : std::uint8_t {
   kBlocked,       ///< held back by a full output
   kMemory,        ///< held back by a stream from or to a memory port, within a frame
   kSynchroniser,  ///< held back by a token or a slot that is there, but still on its way between clocks
-  kBlanking,      ///< declared row and frame overheads, and no frame there: waiting for a frame's first token
-                  ///< from the memory
+  kBlanking,      ///< declared row and frame overheads; in a stage that reads from the memory also waiting
+                  ///< for a frame's first token, which elsewhere is starving
 };
 constexpr std::array<StageActivity, 6> kAllStageActivities{
     StageActivity::kBusy,   StageActivity::kStarved,      StageActivity::kBlocked,

@@ -10,7 +10,7 @@ struct StageTiming {
   std::uint32_t interval = 1;        ///< initiation interval: cycles from one firing to the next, >= 1
   std::uint32_t latency = 1;         ///< pipeline registers between reading and writing; 0 = combinational
   std::uint32_t row_overhead = 0;    ///< idle cycles after each row
-  std::uint32_t frame_overhead = 0;  ///< idle cycles after each frame
+  std::uint32_t frame_overhead = 0;  ///< idle cycles after each frame of the stage (Stage)
 };
 
 }  // namespace parallax

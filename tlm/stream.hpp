@@ -27,7 +27,7 @@ class RowListener {
 /// and ahead of their dates, since no value in this machine depends on time. A reader that works on rows
 /// takes each as it is sent; for a reader in kernel time the values wait until it reads them.
 ///
-/// A token is one value, or several where its writer and reader have agreed so (a beat of matching costs):
+/// A token is one value, or several where its writer and reader have agreed so (a group of matching costs):
 /// the stream's values are those of its tokens one after the other.
 template <class T>
 class Stream final : public StreamBase {
@@ -48,7 +48,8 @@ class Stream final : public StreamBase {
   void add_row_listener(RowListener<T>& listener) { row_listeners_.add(listener); }
   void remove_row_listener(RowListener<T>& listener) { row_listeners_.remove(listener); }
 
-  /// The writer hands over the next `length` values.
+  /// The writer hands over the next `length` values: a row, a burst, an image; rows for the reader are made
+  /// by on_row().
   void send_row(const T* row, std::size_t length) {
     for (RowListener<T>* listener : row_listeners_) listener->row(*this, row, length);
     if (take_) {

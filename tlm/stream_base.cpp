@@ -15,11 +15,9 @@ constexpr std::uint32_t kMostStages = 8;
 
 // Beyond the depth, a ring holds the dates that settle() has not counted yet, and the history in which
 // periodic motion is recognised.
-constexpr std::uint64_t kHistory = 64;
-
 std::uint64_t ring_mask(std::uint32_t depth) {
   std::uint64_t size = 1;
-  while (size < depth + kHistory) size *= 2;
+  while (size < depth + kLeapHistory) size *= 2;
   return size - 1;
 }
 
@@ -66,7 +64,7 @@ StreamBase::StreamBase(const char* name, Dataflow& dataflow, const ClockDomain& 
       dataflow_(dataflow),
       writer_clock_(writer_clock),
       reader_clock_(reader_clock),
-      same_clock_(writer_clock.frequency() == reader_clock.frequency()),
+      same_frequency_(writer_clock.frequency() == reader_clock.frequency()),
       mask_(ring_mask(config.depth)),
       write_dates_(mask_ + 1),
       read_dates_(mask_ + 1),

@@ -21,10 +21,10 @@ namespace parallax {
 struct FifoConfig {
   std::uint32_t depth = 2;  ///< tokens in all, output registers included; 1 to 2^24
   Bits width{8};            ///< of one token
-  /// For kind kFree, else left alone: edges of the reader's clock from the writing edge until the token can
-  /// be read. 1 = registered; 0 = in the same cycle, where both sides have one clock.
+  /// For kind kFree, 1 for others (they have their own): edges of the reader's clock from the writing edge
+  /// until the token can be read. 1 = registered; 0 = in the same cycle, where both sides have one clock.
   std::uint32_t write_to_read = 1;
-  /// For kind kFree, else left alone: edges of the writer's clock from the reading edge until the freed slot
+  /// For kind kFree, 1 for others: edges of the writer's clock from the reading edge until the freed slot
   /// can be written. 1 = registered; 0 = in the same cycle, where both sides have one clock.
   std::uint32_t read_to_write = 1;
   FifoKind kind = FifoKind::kFree;        ///< which circuit; fifo_kind.hpp states the rule of each
@@ -38,8 +38,10 @@ struct StreamStatistics {
   std::uint64_t written = 0;
   std::uint64_t read = 0;
   std::uint64_t high_water = 0;  ///< largest number of tokens held at the end of a cycle
-  Cycles blocked_on_full;        ///< writer's cycles in which only this stream's lack of room held it back
-  Cycles starved_on_empty;       ///< reader's cycles in which only this stream's lack of a token held it back
+  // Of a writer or reader that waits for several streams, the wait counts where it ended: at the last of
+  // them.
+  Cycles blocked_on_full;   ///< writer's cycles of waiting for room here
+  Cycles starved_on_empty;  ///< reader's cycles of waiting for a token here
 };
 
 /// How full a FIFO has been until a date, as its writer sees it: what a slot counts, see
@@ -252,11 +254,11 @@ class StreamBase : public sc_core::sc_prim_channel, public virtual sc_core::sc_i
   std::uint64_t history() const { return mask_ + 1; }
 
   Cycles forward(Cycles written) const {
-    if (same_clock_) return written + Cycles(config_.write_to_read);
+    if (same_frequency_) return written + Cycles(config_.write_to_read);
     return reader_clock_.first_edge_after(writer_clock_, written) + Cycles(config_.write_to_read - 1);
   }
   Cycles backward(Cycles read) const {
-    if (same_clock_) return read + Cycles(config_.read_to_write);
+    if (same_frequency_) return read + Cycles(config_.read_to_write);
     return writer_clock_.first_edge_after(reader_clock_, read) + Cycles(config_.read_to_write - 1);
   }
   void settle() const;
@@ -272,7 +274,7 @@ class StreamBase : public sc_core::sc_prim_channel, public virtual sc_core::sc_i
   Dataflow& dataflow_;
   const ClockDomain& writer_clock_;
   const ClockDomain& reader_clock_;
-  const bool same_clock_;
+  const bool same_frequency_;
   const std::uint64_t mask_;
   std::vector<Cycles> write_dates_;  // of the last tokens, by index & mask_
   std::vector<Cycles> read_dates_;

@@ -24,7 +24,8 @@ class TransferProgress {
     dates_.push_back(time);
     if (waiter_ != nullptr) dataflow_->wake(*std::exchange(waiter_, nullptr));
   }
-  /// When `bursts` bursts have been answered, if that is known. Never asked for fewer than before.
+  /// When `bursts` bursts have been answered, if that is known; when asked for fewer than before, as many as
+  /// then.
   std::optional<sc_core::sc_time> reached(std::uint64_t bursts) {
     while (past_ < bursts && !dates_.empty()) {
       latest_ = std::max(latest_, dates_.front());

@@ -27,13 +27,12 @@ struct RecorderConfig {
   std::int32_t rows = 0;    ///< of the image
   std::int32_t tiles = 1;   ///< that a frame is processed in
   std::int64_t frames = 0;  ///< of the run
-  sc_core::sc_time period;  ///< how often FIFOs are looked at, and sinks told
+  sc_core::sc_time period;  ///< how often FIFOs are looked at; sinks are notified as often, or less
 };
 
-/// Listens to the parts that it is given and tells sinks what they do. A part that it is not given costs
-/// nothing. Dates are known ahead of kernel time, part by part, and so are they
-/// told: each part's in their order, save that answers of a memory may come in another than they are known
-/// in.
+/// Listens to the parts that it is given and notifies sinks of what they do. A part that it is not given
+/// costs nothing. Dates are known ahead of kernel time, part by part, and sinks get them so: each part's in
+/// their order, save that answers of a memory may come in another than they are known in.
 ///
 /// Parts are added when all ports are bound, sinks before; they must outlive the simulation.
 class Recorder final : public sc_core::sc_module {

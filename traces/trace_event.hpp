@@ -69,9 +69,9 @@ struct StageRow : RowBegin {
   PartId input = kNoPart;                              ///< the stream it waited for, if known
   StageActivity room_wait = StageActivity::kBlocked;   ///< inputs_until to end
   PartId room = kNoPart;
-  StageActivity longest_wait =
-      StageActivity::kBusy;     ///< of what kind were most waits in it; kBusy: there was none
-  PartId longest_at = kNoPart;  ///< the stream that caused most of these
+  /// The kind of wait at one stream that was longest, summed over the row; kBusy: there was no wait.
+  StageActivity longest_wait = StageActivity::kBusy;
+  PartId longest_at = kNoPart;  ///< that stream
 };
 
 /// One firing of a stage.

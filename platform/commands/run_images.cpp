@@ -11,8 +11,7 @@ namespace parallax {
 RunImages::RunImages(const RunOptions& options, const MachineConfig& config, const NoticeSink& notice)
     : is_scene_(options.left.empty() && options.input.empty()),
       source_(open_source(options, config, notice)),
-      granularity_{static_cast<int>(config.image.width_granularity),
-                   static_cast<int>(config.image.height_granularity)},
+      granularity_(config.image.granularity()),
       size_(source_->width(), source_->height()),
       padded_(padded_size(size_, granularity_)),
       rectification_(choose_rectification(options, config.rectification.range, *source_, padded_, notice)) {

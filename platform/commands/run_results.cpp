@@ -7,7 +7,7 @@
 #include "platform/config/config_writer.hpp"
 #include "platform/evaluation/evaluation_result.hpp"
 #include "platform/report/report_file.hpp"
-#include "platform/results/run_metrics.hpp"
+#include "platform/results/run_summary.hpp"
 
 namespace parallax {
 

@@ -15,8 +15,7 @@ namespace {
 EvaluationPool::Preparation preparation(const ConfigurationRequest& machine, const EvaluationInput& input) {
   return [machine, input](const Variant& variant, const NoticeSink&) {
     ConfigurationRequest request = machine;
-    request.assignments.insert(request.assignments.end(), variant.assignments.begin(),
-                               variant.assignments.end());
+    request.changes = variant.assignments;
     return EvaluationCase{load_configuration(request, preset_folders()), input};
   };
 }

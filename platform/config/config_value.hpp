@@ -51,7 +51,8 @@ struct RawValue {
   std::optional<Tag> tag;
   std::optional<std::string> source;
   std::string origin;  ///< "file:line" or the command-line argument, for messages
-  int layer = 0;  ///< 0: the preset that inherits nothing; one more for each that inherits, and for --set
+  int layer =
+      0;  ///< 0: the preset that inherits nothing; one more for each that inherits; --set is above all
 };
 
 /// Key path ("matching.p1") to what was given for it.

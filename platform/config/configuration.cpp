@@ -110,11 +110,16 @@ Configuration load_configuration(const ConfigurationRequest& request,
   describe(schema, result.machine);
 
   RawConfig raw = load_preset(request.preset, preset_folders);
-  for (const std::string& assignment : request.assignments) {
-    auto [key, value] = read_assignment(assignment);
-    value.layer = std::numeric_limits<int>::max();
-    raw[key] = std::move(value);
-  }
+  constexpr int kTop = std::numeric_limits<int>::max();
+  const auto assign = [&raw](const std::vector<std::string>& assignments, int layer) {
+    for (const std::string& assignment : assignments) {
+      auto [key, value] = read_assignment(assignment);
+      value.layer = layer;
+      raw[key] = std::move(value);
+    }
+  };
+  assign(request.assignments, kTop - 1);
+  assign(request.changes, kTop);
   const RawConfig given = raw;
   add_dram_device(raw, preset_folders);
   schema.apply(raw);

@@ -13,11 +13,14 @@
 
 namespace parallax {
 
-/// What the user asked for. Later ones win: preset, then assignments in order, then the disparity range.
+/// What the user asked for. Later ones win: preset, then assignments in order, then changes in order, then
+/// the disparity range.
 struct ConfigurationRequest {
   std::string preset = "scenescan-pro";
   std::vector<std::string> assignments;         ///< "key=value"
   std::optional<std::int64_t> disparity_range;  ///< disparities, a multiple of matching.parallelism
+  /// Assignments made on top, to another machine, for which what the user asked for need not make sense.
+  std::vector<std::string> changes{};
 };
 
 /// A key as it is in effect.

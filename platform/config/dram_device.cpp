@@ -13,6 +13,24 @@ namespace {
 constexpr IntegerRange kClocks{0, 100'000};
 constexpr const char* kDefaultDevice = "JESD79-3F: DDR3-1066 7-7-7, two x16 devices of 4 Gb";
 
+/// A time that is inherited as a number of clocks is another one in ns where a clock is longer or shorter:
+/// who states the clock's period states them all.
+void require_times_with_the_clock(const RawConfig& values, const Schema& schema) {
+  const auto period = values.find("dram.clock_period_ps");
+  if (period == values.end()) return;
+  std::string inherited;
+  for (const Key& key : schema.keys()) {
+    if (key.unit != "clocks") continue;
+    const auto found = values.find(key.path);
+    if (found != values.end() && found->second.layer >= period->second.layer) continue;
+    inherited += (inherited.empty() ? "" : ", ") + key.path;
+  }
+  if (inherited.empty()) return;
+  throw UserError(
+      fmt::format("{}: dram.clock_period_ps is stated without all times in its clocks; state too: {}",
+                  period->second.origin, inherited));
+}
+
 }  // namespace
 
 void describe(Schema& schema, DramTiming& timing) {
@@ -57,11 +75,12 @@ RawConfig read_dram_device(const std::string& name,
                            const std::vector<std::filesystem::path>& preset_folders) {
   std::vector<std::filesystem::path> folders;
   for (const std::filesystem::path& folder : preset_folders) folders.push_back(folder / "memory");
-  RawConfig values = load_preset(name, folders);
+  RawConfig values = load_preset(name, folders, "memory device");
   DramTiming timing;  // so that nothing but a device's keys gets through
   Schema schema;
   describe(schema, timing);
   schema.apply(values);
+  require_times_with_the_clock(values, schema);
   timing.validate();
   return values;
 }

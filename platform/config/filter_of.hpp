@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -36,35 +37,45 @@ struct SharedConfig {
   const StageTiming& timing(const MachineConfig& machine) const { return machine.timing.*time; }
 };
 
+/// Where the filter of a machine that has the configuration `Kept` keeps it. std::logic_error when there is
+/// no such filter.
+template <class Kept>
+Kept& kept_part(const MachineConfig& machine) {
+  for (const auto& filter : machine.filters.all()) {
+    if (auto* const kept = dynamic_cast<Kept*>(filter.get())) return *kept;
+  }
+  throw std::logic_error("the machine has no filter with this configuration");
+}
+
 /// A filter by its kernel (DisparityFilterStage), its configuration and where that is kept. There is a
 /// function `describe(Schema&, Config&)`, and the configuration has a member `validate()`.
 template <class Kernel, class Config, class Kept>
-class FilterOf final : public DisparityFilter {
+class FilterOf final : public DisparityFilter, public Kept {
  public:
   using Enabled = bool (*)(const Config& config);
 
   FilterOf(std::string name, std::string stream, Kept kept, Enabled is_on)
-      : DisparityFilter(std::move(name), std::move(stream)), kept_(std::move(kept)), enabled_(is_on) {}
+      : DisparityFilter(std::move(name), std::move(stream)), Kept(std::move(kept)), enabled_(is_on) {}
 
   std::unique_ptr<DisparityFilter> clone() const override { return std::make_unique<FilterOf>(*this); }
   void describe_function(Schema& schema, MachineConfig& machine) override {
-    describe(schema, kept_.config(machine));
+    describe(schema, Kept::config(machine));
   }
-  StageTiming& timing(MachineConfig& machine) override { return kept_.timing(machine); }
-  void validate(const MachineConfig& machine) const override { kept_.config(machine).validate(); }
-  bool enabled(const MachineConfig& machine) const override { return enabled_(kept_.config(machine)); }
+  StageTiming& timing(MachineConfig& machine) override { return Kept::timing(machine); }
+  void validate(const MachineConfig& machine) const override { Kept::config(machine).validate(); }
+  bool enabled(const MachineConfig& machine) const override { return enabled_(Kept::config(machine)); }
   Made make(const std::string& name, const MachineConfig& machine,
             const StageContext& context) const override {
-    auto stage = std::make_unique<DisparityFilterStage<Kernel, Config>>(name.c_str(), kept_.config(machine),
-                                                                        kept_.timing(machine), context);
-    Follow follow = [told = stage.get(), kept = kept_](const MachineConfig* next) {
-      told->configure(next != nullptr ? std::optional<Config>(kept.config(*next)) : std::nullopt);
+    auto stage = std::make_unique<DisparityFilterStage<Kernel, Config>>(name.c_str(), Kept::config(machine),
+                                                                        Kept::timing(machine), context);
+    Follow follow = [followed = stage.get()](const MachineConfig* next) {
+      followed->configure(next != nullptr ? std::optional<Config>(kept_part<Kept>(*next).config(*next))
+                                          : std::nullopt);
     };
     return {std::move(stage), std::move(follow)};
   }
 
  private:
-  Kept kept_;
   Enabled enabled_;
 };
 

@@ -7,6 +7,12 @@ namespace parallax {
 
 class Schema;
 
+/// Sizes are multiples of this, px.
+struct Granularity {
+  int width;
+  int height;
+};
+
 /// Size of the processed images, in pixels.
 struct ImageConfig {
   std::uint32_t width = 0;                ///< 0 = from the images; own choice
@@ -16,6 +22,9 @@ struct ImageConfig {
   std::uint32_t max_width = 1856;         ///< 1 to 65536; S
   std::uint32_t max_height = 1856;        ///< 1 to 65536; S
 
+  Granularity granularity() const {
+    return {static_cast<int>(width_granularity), static_cast<int>(height_granularity)};
+  }
   /// Throws UserError when a size that is set is larger than the largest.
   void validate() const;
 };

@@ -65,7 +65,7 @@ void describe(Schema& schema, MemoryConfig& config) {
       {{"round_robin", MemoryArbitration::kRoundRobin},
        {"fixed_priority", MemoryArbitration::kFixedPriority}},
       "Which port is served when several wait: in turn, or always the first in the order camera, left, "
-      "right, map, output, link.",
+      "right, map, output, link, then those of what the matcher keeps in memory.",
       chosen("not published"));
 
   schema.integer("memory.bytes_per_cycle", config.bytes_per_cycle, {1, 1024}, "B/cycle",

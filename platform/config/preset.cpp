@@ -64,14 +64,10 @@ fs::path find_file(const std::string& name, const fs::path& relative_to, const F
                               nearest.empty() ? "" : "; the nearest is ", nearest));
 }
 
-fs::path find_preset(const std::string& name, const fs::path& relative_to, const Folders& folders,
-                     const std::string& before) {
-  return find_file(name, relative_to, folders, before, "preset");
-}
-
 /// `chain`: the inheriting file and those before it, to tell a cycle. Returns the file's layer.
-int load(const fs::path& file, const Folders& folders, std::vector<fs::path>& chain, RawConfig& values) {
-  PresetFile preset = read_preset_file(file);
+int load(const fs::path& file, const Folders& folders, const std::string& what, std::vector<fs::path>& chain,
+         RawConfig& values) {
+  PresetFile preset = read_preset_file(file, what);
   chain.push_back(file);
   int layer = 0;
   if (preset.inherits) {
@@ -79,7 +75,7 @@ int load(const fs::path& file, const Folders& folders, std::vector<fs::path>& ch
     Folders around{file.has_parent_path() ? file.parent_path() : fs::path(".")};
     around.insert(around.end(), folders.begin(), folders.end());
     const fs::path parent =
-        find_preset(*preset.inherits, file.parent_path(), around, preset.inherits_origin + ": ");
+        find_file(*preset.inherits, file.parent_path(), around, preset.inherits_origin + ": ", what);
     const auto same = [&](const fs::path& other) { return fs::equivalent(other, parent); };
     if (std::any_of(chain.begin(), chain.end(), same)) {
       std::string cycle;
@@ -87,7 +83,7 @@ int load(const fs::path& file, const Folders& folders, std::vector<fs::path>& ch
       throw UserError(fmt::format("{}: inherits goes round in a circle: {}{}", preset.inherits_origin, cycle,
                                   parent.filename().string()));
     }
-    layer = load(parent, folders, chain, values) + 1;
+    layer = load(parent, folders, what, chain, values) + 1;
   }
   for (auto& [key, value] : preset.values) {
     value.layer = layer;
@@ -119,10 +115,11 @@ fs::path find_toml(const std::string& name, const std::vector<fs::path>& folders
   return find_file(name, {}, folders, "", what);
 }
 
-RawConfig load_preset(const std::string& name, const std::vector<fs::path>& folders) {
+RawConfig load_preset(const std::string& name, const std::vector<fs::path>& folders,
+                      const std::string& what) {
   RawConfig values;
   std::vector<fs::path> chain;
-  load(find_preset(name, {}, folders, ""), folders, chain, values);
+  load(find_file(name, {}, folders, "", what), folders, what, chain, values);
   return values;
 }
 

@@ -22,9 +22,10 @@ bool is_preset_path(const std::string& name);
 std::filesystem::path find_toml(const std::string& name, const std::vector<std::filesystem::path>& folders,
                                 const std::string& what);
 
-/// The values of a preset, by name or path, and of all that it inherits from. Throws UserError: not found
-/// (says where it looked), unreadable, malformed, a cycle of `inherits`.
-RawConfig load_preset(const std::string& name, const std::vector<std::filesystem::path>& folders);
+/// The values of a preset, by name or path, and of all that it inherits from; `what` as in find_toml().
+/// Throws UserError: not found (says where it looked), unreadable, malformed, a cycle of `inherits`.
+RawConfig load_preset(const std::string& name, const std::vector<std::filesystem::path>& folders,
+                      const std::string& what = "preset");
 
 struct PresetSummary {
   std::string name;

@@ -114,10 +114,10 @@ std::optional<std::pair<std::string, std::string>> take_text(toml::table& table,
 
 }  // namespace
 
-PresetFile read_preset_file(const path& file) {
+PresetFile read_preset_file(const path& file, const std::string& what) {
   PresetFile preset;
   preset.path = file;
-  toml::table table = read_toml(file, "preset");
+  toml::table table = read_toml(file, what);
   Reader reader(file.string(), preset.values);
   if (const auto description = take_text(table, "description", reader))
     preset.description = description->first;

@@ -18,8 +18,9 @@ struct PresetFile {
   RawConfig values;
 };
 
-/// Throws UserError with file and line when the file cannot be read or is not a well-formed preset.
-PresetFile read_preset_file(const std::filesystem::path& path);
+/// Throws UserError with file and line when the file cannot be read or is not a well-formed preset; messages
+/// call it a `what`.
+PresetFile read_preset_file(const std::filesystem::path& path, const std::string& what = "preset");
 
 /// Takes a command-line argument "key=value" apart. The value is written as in a preset; the quotes of a name
 /// may be left out. Throws UserError naming the argument.

@@ -17,7 +17,7 @@ struct TileConfig {
   /// contributes can match over the whole range; I.
   bool disparities_in_margin = true;
 
-  /// Throws UserError when a margin is odd: two pixels share five bytes of the output.
+  /// Throws UserError when a margin or the limit is odd: two pixels share five bytes of the output.
   void validate() const;
 };
 

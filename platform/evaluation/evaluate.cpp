@@ -63,9 +63,7 @@ std::string simulate_to_text(const MachineConfig& config, const EvaluationInput&
 // Whether the map is one for this machine.
 void check_map(const MachineConfig& config, const EvaluationInput& input) {
   const EncodedMap& map = *input.map;
-  const cv::Size processed = padded_size(
-      {input.width, input.height},
-      {static_cast<int>(config.image.width_granularity), static_cast<int>(config.image.height_granularity)});
+  const cv::Size processed = padded_size({input.width, input.height}, config.image.granularity());
   if (processed.width != map.width || processed.height != map.height) {
     throw UserError(fmt::format("images of {}x{} are processed as {}x{}, but the map has {}x{}", input.width,
                                 input.height, processed.width, processed.height, map.width, map.height));

@@ -35,15 +35,13 @@ const FrameSource& EvaluationInputs::source_for(const MachineConfig& config, con
 const EncodedMap& EvaluationInputs::map_for(const MachineConfig& config, const FrameSource& source,
                                             const NoticeSink& notice) {
   const cv::Size size(source.width(), source.height());
-  const Granularity granularity{static_cast<int>(config.image.width_granularity),
-                                static_cast<int>(config.image.height_granularity)};
-  const cv::Size processed = padded_size(size, granularity);
+  const cv::Size processed = padded_size(size, config.image.granularity());
   const OffsetRange& range = config.rectification.range;
   const MapKey key{size.width,       size.height,  processed.width,
                    processed.height, range.window, range.fraction_bits};
   const auto found = maps_.find(key);
   if (found != maps_.end()) return found->second;
-  if (const std::string line = padding_notice(size, granularity); !line.empty()) notice(line);
+  if (const std::string line = padding_notice(size, config.image.granularity()); !line.empty()) notice(line);
   return maps_.emplace(key, choose_rectification(options_, range, source, processed, notice).map)
       .first->second;
 }

@@ -42,7 +42,7 @@ class EvaluationPool {
   explicit EvaluationPool(const Preparation& prepare, unsigned processes = usual_processes());
 
   /// Hands each variant's result to `take` in the order of the variants, as soon as it and all before are
-  /// there; with "configuration" in its metrics. A process that dies is a failure of its variant alone.
+  /// there; with `configuration`. A process that dies is a failure of its variant alone.
   /// `interrupted` is asked some ten times a second; when it says yes, what is under way is given up. Returns
   /// how many results were taken: all, unless interrupted.
   std::size_t evaluate(const std::vector<Variant>& variants, const std::function<bool()>& interrupted,

@@ -90,6 +90,7 @@ EvaluationResult evaluation_result(const std::string& text) {
   const std::string word = tree.at("status");
   const Status* const status =
       std::find_if(kStatuses.begin(), kStatuses.end(), [&](Status s) { return word == name(s); });
+  if (status == kStatuses.end()) return without_result(0);
   EvaluationResult result = *status == Status::kDone ? measured(metrics_of(tree.at("metrics")))
                                                      : not_measured(*status, tree.at("message"));
   result.notes = tree.at("notes").get<std::vector<std::string>>();

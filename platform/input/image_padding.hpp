@@ -7,15 +7,10 @@
 #include <vector>
 
 #include "modules/pixel.hpp"
+#include "platform/config/image_config.hpp"
 #include "platform/scene/stereo_images.hpp"
 
 namespace parallax {
-
-/// Sizes are multiples of this, px. All published sizes of the device are (D).
-struct Granularity {
-  int width = 32;
-  int height = 16;
-};
 
 /// The next size that is a multiple of the granularity.
 cv::Size padded_size(const cv::Size& size, const Granularity& granularity);

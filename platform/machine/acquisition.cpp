@@ -10,6 +10,7 @@
 #include "platform/machine/engine_config.hpp"
 #include "platform/machine/when_both.hpp"
 #include "tlm/error.hpp"
+#include "tlm/time_resolution.hpp"
 
 namespace parallax {
 namespace {
@@ -34,21 +35,17 @@ SensorConfig sensor_config(const MachineConfig& config, const MachineInput& inpu
   return sensor;
 }
 
-sc_core::sc_time nanoseconds(std::uint32_t number) {
-  return sc_core::sc_time(static_cast<double>(number), sc_core::SC_NS);
-}
-
 }  // namespace
 
 Acquisition::Acquisition(const sc_core::sc_module_name& name, const MachineConfig& config,
                          const MachineInput& input, const MemoryMap& memory_map, const ClockDomain& clock,
-                         Dataflow& dataflow, Listener listener)
+                         Dataflow& dataflow, Hooks hooks)
     : sc_module(name),
       config_(config),
       input_(input),
       memory_map_(memory_map),
       clock_(clock),
-      listener_(std::move(listener)),
+      hooks_(std::move(hooks)),
       left_sensor_("left_sensor", sensor_config(config, input), clock, dataflow),
       right_sensor_("right_sensor", sensor_config(config, input), clock, dataflow),
       exposure_(clock.cycle_at_or_after(nanoseconds(config.camera.exposure_ns))),
@@ -228,9 +225,9 @@ DmaJob Acquisition::image_job(std::uint64_t address, bool values, int rows) cons
 
 void Acquisition::expose(std::int64_t frame) {
   const StereoFrame images = frame < input_.frames && input_.expose ? input_.expose(frame) : StereoFrame{};
-  listener_.exposed(frame, images.left != nullptr);
+  hooks_.exposed(frame, images.left != nullptr);
   const std::function<void()> done = when_both([this] { frame_complete_.notify(); });
-  const std::function<void()> enough = when_both([this, frame] { listener_.in_memory(frame); });
+  const std::function<void()> enough = when_both([this, frame] { hooks_.in_memory(frame); });
   const std::uint64_t early = config_.camera.early_start_rows;
   const std::uint64_t height = input_.height;
   const std::uint64_t waited_for = (early == 0 ? height : std::min(early, height)) *
@@ -238,7 +235,7 @@ void Acquisition::expose(std::int64_t frame) {
   const auto start = [&](DmaWriter& dma, std::uint64_t address,
                          const std::shared_ptr<TransferProgress>& progress) {
     DmaJob job = image_job(address, images.left != nullptr, input_.height);
-    job.marks = {{1, [this, frame] { listener_.begun(frame); }}, {waited_for, enough}};
+    job.marks = {{1, [this, frame] { hooks_.begun(frame); }}, {waited_for, enough}};
     job.done = done;
     job.progress = progress;
     dma.start(std::move(job));
@@ -277,7 +274,7 @@ void Acquisition::expose_faulty() {
   const auto right = std::make_shared<Received>();
   const std::function<void()> done = when_both([this, left, right] {
     ++counts_.faulty;
-    listener_.faulty(found_fault(*left, *right));
+    hooks_.faulty(found_fault(*left, *right));
     release();
     frame_complete_.notify();
   });

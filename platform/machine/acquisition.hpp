@@ -32,7 +32,7 @@ namespace parallax {
 class Acquisition final : public sc_core::sc_module {
  public:
   /// Told of each frame, in order.
-  struct Listener {
+  struct Hooks {
     std::function<void(std::int64_t frame, bool values)> exposed;  ///< `values`: it carries images
     std::function<void(std::int64_t frame)> begun;      ///< the first bytes of an image are in memory
     std::function<void(std::int64_t frame)> in_memory;  ///< as much of both images as the core waits for
@@ -40,7 +40,7 @@ class Acquisition final : public sc_core::sc_module {
   };
 
   Acquisition(const sc_core::sc_module_name& name, const MachineConfig& config, const MachineInput& input,
-              const MemoryMap& memory_map, const ClockDomain& clock, Dataflow& dataflow, Listener listener);
+              const MemoryMap& memory_map, const ClockDomain& clock, Dataflow& dataflow, Hooks hooks);
 
   /// The oldest frame has been read: its buffer is free.
   void release();
@@ -77,7 +77,7 @@ class Acquisition final : public sc_core::sc_module {
   const MachineInput& input_;
   const MemoryMap& memory_map_;
   const ClockDomain& clock_;
-  const Listener listener_;
+  const Hooks hooks_;
   Sensor left_sensor_;
   Sensor right_sensor_;
   const Cycles exposure_;

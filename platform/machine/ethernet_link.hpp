@@ -17,7 +17,7 @@ namespace parallax {
 struct LinkJob {
   std::uint64_t bytes = 0;
   bool values = true;
-  /// Called when the last bit is on the wire, with the bytes (none without values) and that time.
+  /// Called when the last bit is on the wire, with the bytes (none without values).
   std::function<void(const std::vector<std::uint8_t>& bytes)> sent;
 };
 

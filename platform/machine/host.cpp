@@ -49,6 +49,7 @@ FrameResult Host::unpack(std::int64_t frame, const std::vector<std::uint8_t>& by
 
 void Host::receive(std::int64_t frame, const std::vector<std::uint8_t>& bytes) {
   const FrameResult result = unpack(frame, bytes);
+  if (frames_ == input_.frames) return;  // the simulation goes on, though the run is over
   if (input_.deliver) input_.deliver(result);
   if (++frames_ < input_.frames) return;
   input_.finished ? input_.finished() : sc_core::sc_stop();

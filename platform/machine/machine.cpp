@@ -49,7 +49,7 @@ Machine::Machine(const sc_core::sc_module_name& name, const MachineConfig& confi
       ledger_(config, input.frames, input.step),
       memory_(make_memory(config, input, memory_clock_)),
       acquisition_("acquisition", config_, input_, memory_map_, camera_clock_, dataflow_,
-                   acquisition_listener()),
+                   acquisition_hooks()),
       core_("core", config_, input_, {tiles_, map(), acquisition_.left_writer(), acquisition_.right_writer()},
             core_hooks(), core_clock_, dataflow_),
       transmission_(
@@ -72,16 +72,16 @@ Machine::Machine(const sc_core::sc_module_name& name, const MachineConfig& confi
   software_.driver.socket.bind(core_.control().bank.socket);
 }
 
-Acquisition::Listener Machine::acquisition_listener() {
-  Acquisition::Listener listener;
-  listener.exposed = [this](std::int64_t, bool values) { ledger_.exposed(values); };
-  listener.begun = [this](std::int64_t frame) { ledger_.first_byte(frame); };
-  listener.in_memory = [this](std::int64_t frame) {
+Acquisition::Hooks Machine::acquisition_hooks() {
+  Acquisition::Hooks hooks;
+  hooks.exposed = [this](std::int64_t, bool values) { ledger_.exposed(values); };
+  hooks.begun = [this](std::int64_t frame) { ledger_.first_byte(frame); };
+  hooks.in_memory = [this](std::int64_t frame) {
     ledger_.in_memory(frame);
     software_.frame_in_memory();
   };
-  listener.faulty = [this](CameraFault fault) { core_.control().frame_faulty(fault); };
-  return listener;
+  hooks.faulty = [this](CameraFault fault) { core_.control().frame_faulty(fault); };
+  return hooks;
 }
 
 StereoCore::Hooks Machine::core_hooks() {
@@ -133,7 +133,7 @@ std::vector<MemoryPort*> Machine::collect_ports() {
   for (MemoryPort& port : acquisition_.ports()) add(port);
   for (MemoryPort* port : core_.ports()) add(*port);
   add(transmission_.port());
-  for (MemoryPort* port : core_.buffer_ports()) add(*port);
+  for (MemoryPort* port : core_.store_ports()) add(*port);
   return all;
 }
 

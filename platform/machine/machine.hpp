@@ -76,7 +76,7 @@ class Machine final : public sc_core::sc_module {
   const ClockDomain& link_clock() const { return link_clock_; }
 
  private:
-  Acquisition::Listener acquisition_listener();
+  Acquisition::Hooks acquisition_hooks();
   StereoCore::Hooks core_hooks();
   void received(std::int64_t frame, const std::vector<std::uint8_t>& bytes);
   void start_of_simulation() override;

@@ -33,15 +33,16 @@ struct MachineInput {
   /// and the frame is processed with the last possible parameters.
   std::function<std::optional<AlgorithmParameters>(std::int64_t frame)> parameters;
   /// Called, if there is one, once a frame, in order, when it is exposed. The cameras go on after the last
-  /// one, without images, until the host has all frames, so that every frame meets the traffic of its
+  /// one, without images, as long as the simulation runs, so that every frame meets the traffic of its
   /// successors.
   std::function<StereoFrame(std::int64_t frame)> expose;
   /// Called, if there is one, when a frame comes to a step, at that date: exposed, first byte in memory, in
   /// memory, core started, results in memory, at the host. Of the frames after the last one, too.
   std::function<void(std::int64_t frame, FrameStep step)> step;
-  /// Called when the host has all frames; if there is none, the simulation is stopped then (sc_stop).
+  /// Called once, when the host has all frames; if there is none, the simulation is stopped then (sc_stop).
   std::function<void()> finished;
-  /// Called, if there is one, once a frame, in order, when the host has it.
+  /// Called, if there is one, once a frame, in order, when the host has it; not for what follows the last
+  /// one.
   std::function<void(const FrameResult& result)> deliver;
 };
 

@@ -9,7 +9,8 @@
 namespace parallax {
 
 /// What the matcher keeps in external memory (MatchingStore), as it lies there: one row of path costs, each
-/// overwritten by the next, and after it a frame of the first pass. All tiles of an image use the same.
+/// overwritten by the next, and after it a frame of the first pass. All tiles of an image use the same. Keys,
+/// registers and memory ports call it by the device's name for its port, "buffer".
 struct MatcherStore {
   StoreLayout rows;   ///< a pass: its rows that are written and read back
   StoreLayout frame;  ///< one pass

@@ -46,8 +46,8 @@ enum class PartKind {
   kHost,
 };
 
-/// A part of a machine that can limit its frame rate. Made where it is wired: by Acquisition, StereoCore,
-/// Transmission, and by Machine for what it holds itself.
+/// A part of a machine that can limit its frame rate. Made where it is wired: by Acquisition, Software,
+/// StereoCore, Transmission and MemoryPort, and by Machine for what it holds itself.
 struct Part {
   PartKind kind;
   std::string name;                  ///< its id in results: "matching", "dma_left"

@@ -53,12 +53,15 @@ UnpackerConfig map_bursts(const EncodedMap& map, const DmaPortConfig& port) {
 
 Bits burst_bits(const DmaPortConfig& port) { return Bits(port.burst_bytes * 8); }
 
-// A stage of which a part of the configuration can change from frame to frame.
+// Makes a stage follow the run-time parameters in a part of the configuration; not what stands in its place
+// (nullptr).
 template <class S, class Part>
-std::function<void(const MachineConfig*)> following(S* stage, Part MachineConfig::*part) {
-  return [stage, part](const MachineConfig* next) {
-    if (stage != nullptr) stage->configure(next != nullptr ? std::optional(next->*part) : std::nullopt);
-  };
+void follow(std::vector<std::function<void(const MachineConfig*)>>& all, S* stage,
+            Part MachineConfig::*part) {
+  if (stage == nullptr) return;
+  all.push_back([stage, part](const MachineConfig* next) {
+    stage->configure(next != nullptr ? std::optional(next->*part) : std::nullopt);
+  });
 }
 
 }  // namespace
@@ -133,19 +136,16 @@ void Pipeline::place_matching() {
   auto* consistency =
       wiring_.place<ConsistencyStage>("consistency", {tiles_, config_.consistency.enabled, groups},
                                       config_.consistency, range, groups, time.consistency, context_);
-  follow_ = {following(matching, &MachineConfig::matching), following(subpixel, &MachineConfig::subpixel),
-             following(uniqueness, &MachineConfig::uniqueness),
-             following(consistency, &MachineConfig::consistency)};
+  follow(follow_, matching, &MachineConfig::matching);
+  follow(follow_, subpixel, &MachineConfig::subpixel);
+  follow(follow_, uniqueness, &MachineConfig::uniqueness);
+  follow(follow_, consistency, &MachineConfig::consistency);
 }
 
 void Pipeline::place_filters(const TilePlan& tiles) {
   auto* texture = wiring_.place<TextureStage>("texture", {tiles_, config_.texture.enabled}, config_.texture,
                                               config_.timing.texture, context_);
-  follow_.push_back([texture](const MachineConfig* next) {
-    if (texture == nullptr) return;
-    const auto threshold = [&] { return next->texture.enabled ? next->texture.threshold : 0; };
-    texture->set_threshold(next != nullptr ? std::optional(threshold()) : std::nullopt);
-  });
+  follow(follow_, texture, &MachineConfig::texture);
   for (const auto& filter : config_.filters.all()) {
     wiring_.place(filter->name(), {tiles_, filter->enabled(config_)},
                   [&](const std::string& name, const StageContext& context) {

@@ -5,14 +5,12 @@
 #include <optional>
 #include <utility>
 
+#include "tlm/time_resolution.hpp"
+
 namespace parallax {
 namespace {
 
 constexpr std::int64_t kShortestPause = 1000;  // ns, before it tries again to start the core
-
-sc_core::sc_time nanoseconds(std::int64_t number) {
-  return sc_core::sc_time(static_cast<double>(number), sc_core::SC_NS);
-}
 
 }  // namespace
 
@@ -53,7 +51,8 @@ void Software::start_core() {
   const std::int64_t frame = started_;
   std::optional<AlgorithmParameters> parameters;
   if (!parameters_written_) parameters = algorithm_parameters(config_);
-  if (input_.parameters && frame < input_.frames) {
+  if (input_.parameters && frame < input_.frames && frame == asked_) {
+    ++asked_;  // a start that was refused is tried again with what has been written
     if (const auto changed = input_.parameters(frame)) parameters = changed;
   }
   if (parameters) driver.write_parameters(*parameters);

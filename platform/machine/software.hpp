@@ -75,6 +75,7 @@ class Software final : public sc_core::sc_module {
   bool starting_ = false;                 // it is about to start the next frame
   bool offers_ = false;
   bool parameters_written_ = false;  // once, before the first frame
+  std::int64_t asked_ = 0;           // frames whose parameters the run has been asked for
   std::int64_t rejected_starts_ = 0;
   BusyTime starting_time_;
   BusyTime core_time_;

@@ -40,8 +40,8 @@ void check_whole_bytes(PixelFormat format, int width, const TilePlan& tiles) {
 
 }  // namespace
 
-StereoCore::BufferEngines::BufferEngines(const std::string& what, const DmaPortConfig& config,
-                                         const ClockDomain& clock, Dataflow& dataflow)
+StereoCore::StoreEngines::StoreEngines(const std::string& what, const DmaPortConfig& config,
+                                       const ClockDomain& clock, Dataflow& dataflow)
     : write(("dma_" + what + "_write").c_str(), engine_config(config), clock),
       read(("dma_" + what + "_read").c_str(), engine_config(config), clock),
       progress(std::make_shared<TransferProgress>(dataflow)),
@@ -77,11 +77,11 @@ StereoCore::StereoCore(const sc_core::sc_module_name& name, const MachineConfig&
   check_whole_bytes(format_, run.width, input_.tiles);
   pipeline_.bind(dma_left_.out_bursts, dma_right_.out_bursts, dma_map_.out_bursts, dma_output_.in_bursts);
   if (pipeline_.store().keeps_rows()) {
-    rows_ = std::make_unique<BufferEngines>("buffer_row", config.dma.buffer, clock, dataflow);
+    rows_ = std::make_unique<StoreEngines>("buffer_row", config.dma.buffer, clock, dataflow);
     pipeline_.bind_rows(rows_->write.in_bursts, rows_->read.out_bursts);
   }
   if (pipeline_.store().keeps_frame()) {
-    frame_ = std::make_unique<BufferEngines>("buffer_frame", config.dma.buffer, clock, dataflow);
+    frame_ = std::make_unique<StoreEngines>("buffer_frame", config.dma.buffer, clock, dataflow);
     pipeline_.bind_frame(frame_->write.in_bursts, frame_->read.out_bursts);
   }
   describe_ports();
@@ -167,7 +167,7 @@ void StereoCore::written(std::int64_t frame) {
 // The engines of a buffer move the same bursts; what is written must be answered for before it is read.
 void StereoCore::start_store(std::int64_t frame, const FrameCommand& command) {
   const MatcherStore& store = pipeline_.store();
-  const auto move = [values = hooks_.has_values(frame)](BufferEngines& ports, std::uint64_t address,
+  const auto move = [values = hooks_.has_values(frame)](StoreEngines& ports, std::uint64_t address,
                                                         std::uint64_t rows, std::uint64_t row_bytes,
                                                         Bytes burst, bool backwards) {
     DmaJob transfer;

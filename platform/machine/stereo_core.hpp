@@ -41,7 +41,7 @@ struct CoreDates {
 class StereoCore final : public sc_core::sc_module {
  public:
   struct Hooks {
-    /// Whether there is a frame that could be started now; asked at a start.
+    /// Whether software is about to start a frame just now; asked at a start, which is refused otherwise.
     std::function<bool()> expected;
     /// Whether a frame carries images; else its time alone passes.
     std::function<bool(std::int64_t frame)> has_values;
@@ -75,7 +75,7 @@ class StereoCore final : public sc_core::sc_module {
   const MemoryPort& map_port() const { return map_port_; }
   /// Those that write and read back what the matcher keeps in memory, as far as it does: buffer_row_write,
   /// buffer_row_read, buffer_frame_write, buffer_frame_read.
-  std::vector<MemoryPort*> buffer_ports() const;
+  std::vector<MemoryPort*> store_ports() const;
   /// Tells the ports which stage is at their other end; when all is bound.
   void find_stages();
   /// Every stage; before them the core as a whole, unless frames queue in it. After find_stages().
@@ -91,9 +91,9 @@ class StereoCore final : public sc_core::sc_module {
   void written(std::int64_t frame);
   DmaJob output_job(const Tile& tile) const;
 
-  struct BufferEngines {  // of what the matcher keeps in memory
-    BufferEngines(const std::string& what, const DmaPortConfig& config, const ClockDomain& clock,
-                  Dataflow& dataflow);
+  struct StoreEngines {  // of what the matcher keeps in memory
+    StoreEngines(const std::string& what, const DmaPortConfig& config, const ClockDomain& clock,
+                 Dataflow& dataflow);
     DmaWriter write;
     DmaReader read;
     std::shared_ptr<TransferProgress> progress;
@@ -117,8 +117,8 @@ class StereoCore final : public sc_core::sc_module {
   const std::uint32_t early_rows_;
   const Bytes output_burst_;
   std::shared_ptr<TransferProgress> output_progress_;
-  std::unique_ptr<BufferEngines> rows_;   // if the matcher keeps rows
-  std::unique_ptr<BufferEngines> frame_;  // if it keeps a frame
+  std::unique_ptr<StoreEngines> rows_;   // if the matcher keeps rows
+  std::unique_ptr<StoreEngines> frame_;  // if it keeps a frame
   MemoryPort left_port_;
   MemoryPort right_port_;
   MemoryPort map_port_;

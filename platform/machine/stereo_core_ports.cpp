@@ -48,7 +48,7 @@ void StereoCore::describe_ports() {
     output_rows.insert(output_rows.end(), job.row_bytes.begin(), job.row_bytes.end());
   }
   output_port_.rows = shared(rows_of_lengths(output_rows, run_.height));
-  const auto describe = [&](const std::unique_ptr<BufferEngines>& engines, const StoreLayout& layout) {
+  const auto describe = [&](const std::unique_ptr<StoreEngines>& engines, const StoreLayout& layout) {
     if (!engines) return;
     for (MemoryPort* port : {&engines->write_port, &engines->read_port}) {
       port->rows = rows_of_tiles(layout, tiles.size());
@@ -59,9 +59,9 @@ void StereoCore::describe_ports() {
   describe(frame_, pipeline_.store().frame);
 }
 
-std::vector<MemoryPort*> StereoCore::buffer_ports() const {
+std::vector<MemoryPort*> StereoCore::store_ports() const {
   std::vector<MemoryPort*> ports;
-  for (BufferEngines* engines : {rows_.get(), frame_.get()}) {
+  for (StoreEngines* engines : {rows_.get(), frame_.get()}) {
     if (engines == nullptr) continue;
     ports.push_back(&engines->write_port);
     ports.push_back(&engines->read_port);
@@ -72,7 +72,7 @@ std::vector<MemoryPort*> StereoCore::buffer_ports() const {
 void StereoCore::find_stages() {
   const std::vector<StageInfo> stages = pipeline_.stages();
   for (MemoryPort* port : ports()) port->find_stage(stages);
-  for (MemoryPort* port : buffer_ports()) port->find_stage(stages);
+  for (MemoryPort* port : store_ports()) port->find_stage(stages);
 }
 
 std::vector<Part> StereoCore::parts() const {
@@ -83,7 +83,7 @@ std::vector<Part> StereoCore::parts() const {
                      "clocks.core_hz, software.response_ns",
                      {Relief::kCoreClock, Relief::kSoftware, Relief::kMatchingInterval}});
   }
-  const std::vector<MemoryPort*> buffer = buffer_ports();
+  const std::vector<MemoryPort*> buffer = store_ports();
   for (const StageInfo& info : pipeline_.stages()) {
     Part part{PartKind::kStage, info.stage->basename(), "clocks.core_hz", {Relief::kCoreClock}};
     part.stage = info;
@@ -117,7 +117,7 @@ CoreFacts StereoCore::make_facts(const MachineConfig& config) const {
   facts.right = {right_port_.master, config.dma.right.outstanding};
   facts.map = {map_port_.master, config.dma.map.outstanding};
   facts.output = {output_port_.master, config.dma.output.outstanding};
-  for (const MemoryPort* port : buffer_ports()) facts.buffer.push_back({port->master, port->slots});
+  for (const MemoryPort* port : store_ports()) facts.buffer.push_back({port->master, port->slots});
   return facts;
 }
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "platform/registers/register_map.hpp"
+#include "tlm/time_resolution.hpp"
 
 namespace parallax {
 namespace {
@@ -24,8 +25,7 @@ std::uint64_t value(const RegisterBank::Field& high, const RegisterBank::Field& 
 ControlBlocks::ControlBlocks(const sc_core::sc_module_name& name, const MachineConfig& config,
                              const CoreFacts& facts, Hooks hooks)
     : sc_module(name),
-      bank("bank", register_blocks(),
-           sc_core::sc_time(static_cast<double>(config.software.register_ns), sc_core::SC_NS)),
+      bank("bank", register_blocks(), nanoseconds(config.software.register_ns)),
       config_(config),
       facts_(facts),
       hooks_(std::move(hooks)),

@@ -51,7 +51,7 @@ class ControlBlocks final : public sc_core::sc_module {
   RegisterBank bank;
 
   struct Hooks {
-    std::function<bool()> expected;                       ///< whether there is a frame that could be started
+    std::function<bool()> expected;  ///< whether software is about to start a frame; else it is refused
     std::function<void(const FrameCommand&)> on_start{};  ///< called within the write that starts it
   };
 

@@ -160,14 +160,13 @@ std::string registers_as_markdown() {
         "|---|---|---|---|---|---|---|\n",
         block.name, block.base, block.documentation);
     for (const Register& reg : block.registers) {
-      if (reg.fields.size() > 1) {
-        text += fmt::format("| {:#04x} | {} | | | | | {} |\n", reg.offset, reg.name, reg.documentation);
-      }
+      // A register that is its only field is one row.
+      const bool is_its_field = reg.fields.size() == 1 && reg.fields[0].documentation == reg.documentation;
+      const std::string place = fmt::format("{:#04x} | {}", reg.offset, reg.name);
+      if (!is_its_field) text += fmt::format("| {} | | | | | {} |\n", place, reg.documentation);
       for (const RegisterField& f : reg.fields) {
-        text += fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n",
-                            reg.fields.size() > 1 ? "" : fmt::format("{:#04x}", reg.offset),
-                            reg.fields.size() > 1 ? "" : reg.name, bits(f), f.name, text_of(f.access),
-                            f.reset, f.documentation);
+        text += fmt::format("| {} | {} | {} | {} | {} | {} |\n", is_its_field ? place : " | ", bits(f),
+                            f.name, text_of(f.access), f.reset, f.documentation);
       }
     }
   }

@@ -6,21 +6,11 @@
 #include <algorithm>
 #include <map>
 #include <stdexcept>
-#include <type_traits>
 
 #include "platform/config/schema.hpp"
 
 namespace parallax {
 namespace {
-
-template <auto kPart, auto kField>
-constexpr RunTimeParameter::Member member() {
-  return {[](const MachineConfig& config) { return int{(config.*kPart).*kField}; },
-          [](MachineConfig& config, int value) {
-            auto& field = (config.*kPart).*kField;
-            field = static_cast<std::remove_reference_t<decltype(field)>>(value);
-          }};
-}
 
 using M = MachineConfig;
 constexpr auto kIterations = member<&M::matching, &MatchingConfig::iterations>();

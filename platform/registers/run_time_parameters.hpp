@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "platform/config/machine_config.hpp"
+#include "platform/registers/parameter_member.hpp"
 #include "tlm/register_bank.hpp"
 
 namespace parallax {
@@ -28,14 +29,8 @@ struct ParameterRule {
 
 /// One row. Unit, meaning and range are those of the configuration key.
 struct RunTimeParameter {
-  /// The field of the configuration; a boolean is 0 or 1.
-  struct Member {
-    int (*get)(const MachineConfig& config);
-    void (*set)(MachineConfig& config, int value);
-  };
-
   const char* key;            ///< of the value that software writes first: "matching.p1"
-  Member member;              ///< what the key is bound to
+  ParameterMember member;     ///< what the key is bound to
   const char* reg;            ///< of the stereo block
   const char* field;          ///< within the register
   unsigned low;               ///< number of the field's lowest bit

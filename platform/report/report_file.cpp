@@ -65,7 +65,7 @@ std::vector<ReportImage> images_of(const fs::path& folder) {
   return images;
 }
 
-// Whether the run is of the row's machine: preset, size, and what the row sets.
+// Whether the run, of the row's preset, has its size and what it sets.
 bool is_of(const PublishedRow& row, const RunReport& report) {
   const MetricGroup& input = report.metrics.group_at("input");
   if (row.width != input.count("width") || row.height != input.count("height")) return false;
@@ -88,10 +88,14 @@ std::vector<BudgetLine> budget_of(const RunReport& report) {
     const PublishedRows file = read_published_rows(name, preset_folders());
     for (const PublishedRow& row : file.rows) {
       if ((row.preset.empty() ? file.preset : row.preset) != preset || row.refused) continue;
-      BudgetLine line{row.name, row.source, row.metric, row.unit, row.published, {}};
+      BudgetLine line{row.name, row.source, row.metric, row.unit, row.published};
       const std::size_t slash = line.metric.rfind('/');
       if (slash != std::string::npos) line.metric.erase(0, slash + 1);
-      if (has_rate && is_of(row, report)) line.reached = predicted(row, report.metrics);
+      if (has_rate && is_of(row, report)) {
+        line.reached = predicted(row, report.metrics);
+        line.deviation = row.deviation(*line.reached);
+        line.within = row.allows(line.deviation);
+      }
       budget.push_back(std::move(line));
     }
   }

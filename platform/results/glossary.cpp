@@ -56,12 +56,14 @@ std::vector<Name> names() {
        "pipeline; output writes results, link reads them; buffer_row_write, buffer_row_read, "
        "buffer_frame_write "
        "and buffer_frame_read are those of what the matcher keeps in memory."},
-      {"<stage>", "A stage of the pipeline, named as in the configuration."},
+      {"<stage>", "A stage of the pipeline; those that have keys are named as in the configuration."},
       {"<stream>", "A FIFO between two stages, or between a stage and a memory port."},
       {"<buffers>", "left, right or output: buffers in memory between two engines."},
       {"<wait>", "wait_1, wait_2 and so on."},
       {"limit/utilisation_by_part/<part>",
-       "The memory, the cameras, the DMA engines, the stages, the link and the host."}};
+       "The memory, the cameras and their rate, the DMA engines, software, the core, the stages, the link "
+       "and the "
+       "host."}};
   for (const FrameSpan& span : frame_spans())
     all.push_back({fmt::format("<span>: {}", span.name), span.description});
   for (const EnergyEstimate::Part& part : estimate_energy(EnergyConfig{}, EnergyActivity{}).parts)

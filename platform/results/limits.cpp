@@ -159,26 +159,26 @@ std::vector<PartLoad> part_loads(const Machine& machine, const SteadyWindow& win
   return all;
 }
 
-LimitVerdict find_limit(const std::vector<PartLoad>& loads) {
-  LimitVerdict verdict;
-  verdict.busiest = first_at_largest(loads);
-  verdict.limited = verdict.busiest.share >= kSaturated;
-  if (verdict.busiest.part->kind == PartKind::kCore) {
+Limit find_limit(const std::vector<PartLoad>& loads) {
+  Limit limit;
+  limit.busiest = first_at_largest(loads);
+  limit.limited = limit.busiest.share >= kSaturated;
+  if (limit.busiest.part->kind == PartKind::kCore) {
     std::vector<PartLoad> outside;
     std::copy_if(loads.begin(), loads.end(), std::back_inserter(outside),
                  [](const PartLoad& l) { return l.part->core_waits && l.share >= kWaitedFor; });
-    if (!outside.empty()) verdict.busiest = first_at_largest(outside);
+    if (!outside.empty()) limit.busiest = first_at_largest(outside);
   }
   std::vector<PartLoad> others;
   std::copy_if(loads.begin(), loads.end(), std::back_inserter(others), [&](const PartLoad& l) {
     // The core's time holds the software's.
-    const bool same = l.part == verdict.busiest.part ||
-                      (verdict.busiest.part->kind == PartKind::kCore && l.part->kind == PartKind::kSoftware);
-    return l.share < kSamePace * verdict.busiest.share && !same;
+    const bool same = l.part == limit.busiest.part ||
+                      (limit.busiest.part->kind == PartKind::kCore && l.part->kind == PartKind::kSoftware);
+    return l.share < kSamePace * limit.busiest.share && !same;
   });
-  verdict.next = others.empty() ? verdict.busiest : first_at_largest(others);
-  verdict.otherwise = "streams.<name>.depth, camera.frame_buffers, link.output_buffers";
-  return verdict;
+  limit.next = others.empty() ? limit.busiest : first_at_largest(others);
+  limit.otherwise = "streams.<name>.depth, camera.frame_buffers, link.output_buffers";
+  return limit;
 }
 
 }  // namespace parallax

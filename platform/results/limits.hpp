@@ -22,7 +22,7 @@ struct PartLoad {
 std::vector<PartLoad> part_loads(const Machine& machine, const SteadyWindow& window);
 
 /// What limits the frame rate.
-struct LimitVerdict {
+struct Limit {
   bool limited = false;   ///< whether a part is at work (nearly) all the time
   PartLoad busiest;       ///< that part, else the one with the largest share
   PartLoad next;          ///< the busiest of those that do not run at its pace
@@ -30,6 +30,6 @@ struct LimitVerdict {
 };
 
 /// `loads` must not be empty; each has its part.
-LimitVerdict find_limit(const std::vector<PartLoad>& loads);
+Limit find_limit(const std::vector<PartLoad>& loads);
 
 }  // namespace parallax

@@ -89,7 +89,10 @@ const MetricTable& pipeline_table() {
       {"stages/<stage>/cycles_per_frame", "cycles",
        "Cycles of a frame without any wait, by the stage's declared intervals.", ""},
       {"stages/<stage>/utilisation", "%",
-       "Cycles of a frame without any wait as a share of the frame period.", kSteadyState},
+       "Cycles of a frame without any wait as a share of the frame period; declared overheads of rows and "
+       "frames, "
+       "which are blanking, are in it.",
+       kSteadyState},
       {"stages/<stage>/window", "cycles",
        "Core cycles from the stage's first firing for one frame to that for a later one, over the frames of "
        "the steady state; "
@@ -109,7 +112,10 @@ const MetricTable& pipeline_table() {
        "asynchronous FIFO.",
        kSteadyState},
       {"stages/<stage>/blanking", "cycles",
-       "Cycles of declared row and frame overhead, and of waiting for a frame to begin.", kSteadyState},
+       "Cycles of declared row and frame overhead, and, in stages that read from the memory, of waiting for "
+       "a "
+       "frame's first burst; other stages starve then.",
+       kSteadyState},
       {"stages/<stage>/busy_share", "%",
        "Busy cycles as a share of the window; the six shares are rounded to one decimal so that they sum to "
        "100.0, those with "
@@ -144,9 +150,12 @@ const MetricTable& pipeline_table() {
       {"streams/<stream>/full", "%", "Share of the time without a free slot.", kWholeRun},
       {"streams/<stream>/empty", "%", "Share of the time without a token.", kWholeRun},
       {"streams/<stream>/blocked_on_full", "cycles",
-       "Writer's cycles in which this FIFO alone held it back, being full.", kWholeRun},
+       "Writer's cycles of waits that this FIFO ended: of all that the writer waited for, it had room last.",
+       kWholeRun},
       {"streams/<stream>/starved_on_empty", "cycles",
-       "Reader's cycles in which this FIFO alone held it back, being empty.", kWholeRun},
+       "Reader's cycles of waits that this FIFO ended: of all that the reader waited for, it had a token "
+       "last.",
+       kWholeRun},
       {"streams/<stream>/occupancy_bin", "tokens",
        "Fill levels that one bin of the histogram holds together: 1 up to a depth of 64.", ""},
       {"streams/<stream>/occupancy", "cycles",

@@ -42,11 +42,11 @@ void add_latency(const MetricWriter& out, const Machine& machine, const SteadyWi
 void add_limit(const MetricWriter& out, const Machine& machine, const SteadyWindow& window) {
   if (window.frames() == 0) return;
   const std::vector<PartLoad> all = part_loads(machine, window);
-  const LimitVerdict verdict = find_limit(all);
-  out.add("limit/part", verdict.limited ? verdict.busiest.part->name : std::string("none"));
-  out.add("limit/key", verdict.limited ? verdict.busiest.part->key : verdict.otherwise);
-  out.add("limit/utilisation", 100.0 * verdict.busiest.share);
-  const PartLoad& next = verdict.limited ? verdict.next : verdict.busiest;
+  const Limit limit = find_limit(all);
+  out.add("limit/part", limit.limited ? limit.busiest.part->name : std::string("none"));
+  out.add("limit/key", limit.limited ? limit.busiest.part->key : limit.otherwise);
+  out.add("limit/utilisation", 100.0 * limit.busiest.share);
+  const PartLoad& next = limit.limited ? limit.next : limit.busiest;
   out.add("limit/next_part", next.part->name);
   out.add("limit/next_frame_rate", 1.0 / next.busy);
   for (const PartLoad& load : all)

@@ -129,7 +129,9 @@ const MetricTable& run_table() {
        "Triggers that found a sensor still reading out (jitter, or a memory that does not keep up).",
        kWholeRun},
       {"software/rejected_starts", "starts",
-       "Frames that the core did not take at once because of what its registers said; software tries again.",
+       "Starts that the core refused because of what its registers said; software tries again, and each "
+       "attempt "
+       "counts.",
        kWholeRun},
       {"software/waits_for_output_buffer", "ms",
        "Time a frame in which the core could have been started but for its results, all link.output_buffers "

@@ -25,22 +25,17 @@ struct RunTotals {
   double peak_megabytes = 0;
 };
 
-/// Everything that `timing.json` and the summary say of a run: "schema", "run", "input", "performance",
-/// "latency", "limit", "memory", "energy", "stages", "streams", "quality".
+/// Everything that `timing.json` and the summary say of a run: "schema", "run", "input", "camera",
+/// "software", "performance", "latency", "limit", "memory", "energy", "stages", "streams", "buffers",
+/// "quality".
 MetricGroup measure(const Machine& machine, const RunTotals& totals, int image_width, int image_height);
 
-/// Of a machine that got stuck: "schema", "run", "input", "deadlock", "stages", "streams", "quality"; stages
-/// and streams until then.
+/// Of a machine that got stuck: "schema", "run", "input", "deadlock", "stages", "streams", "buffers",
+/// "quality"; stages and streams until then.
 MetricGroup measure_stuck(const Machine& machine, const Deadlock& deadlock, const RunTotals& totals,
                           int image_width, int image_height);
 
-/// "run", "input", "camera", "software" and "quality".
+/// "schema", "run", "input", "camera", "software" and "quality".
 const MetricTable& run_table();
-
-/// The summary that a person reads, from that tree.
-std::string summary(const MetricGroup& metrics);
-
-/// A line for each stage of the pipeline, where its cycles went, and for each stream, how full it was.
-std::string stage_summary(const MetricGroup& metrics);
 
 }  // namespace parallax

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "platform/results/run_summary.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,8 +10,8 @@
 #include <vector>
 
 #include "platform/machine/machine.hpp"
-#include "platform/results/run_metrics.hpp"
 #include "platform/results/stage_time.hpp"
+#include "tlm/stage_activity.hpp"
 
 namespace parallax {
 namespace {
@@ -180,12 +182,13 @@ std::string stage_summary(const MetricGroup& m) {
       text += fmt::format("energy {:<20}{:>5.2f} W estimated\n", metric.name.substr(6), metric.number());
   }
   for (const MetricGroup& stage : m.group_at("stages").groups) {
-    text += fmt::format(
-        "stage  {:<20}{:>5.1f} % busy, {:>5.1f} % starved, {:>5.1f} % blocked, {:>5.1f} % memory, "
-        "{:>5.1f} % "
-        "blanking of {:.0f} cycles\n",
-        stage.name, stage.number("busy_share"), stage.number("starved_share"), stage.number("blocked_share"),
-        stage.number("memory_share"), stage.number("blanking_share"), stage.number("window"));
+    std::string shares;
+    for (const StageActivity activity : kAllStageActivities) {
+      const double share = stage.number(std::string(name_of(activity)) + "_share");
+      if (activity == StageActivity::kSynchroniser && share == 0) continue;  // only some FIFOs have one
+      shares += fmt::format("{}{:>5.1f} % {}", shares.empty() ? "" : ", ", share, name_of(activity));
+    }
+    text += fmt::format("stage  {:<20}{} of {:.0f} cycles\n", stage.name, shares, stage.number("window"));
   }
   for (const MetricGroup& stream : m.group_at("streams").groups) {
     text += fmt::format(

@@ -23,6 +23,10 @@ struct PublishedRow {
   double published = 0;
   double least = 0;  ///< percent by which the prediction may deviate, at least
   double most = 0;   ///< and at most
+
+  /// Percent by which a prediction differs from what was published, and whether it may.
+  double deviation(double predicted) const { return 100 * (predicted / published - 1); }
+  bool allows(double deviation) const { return deviation >= least && deviation <= most; }
 };
 
 /// Published figures of one or several machines.

@@ -89,8 +89,8 @@ ValidatedRow compare(const PublishedRow& row, const EvaluationResult& result) {
     return validated;
   }
   validated.predicted = predicted(row, result.metrics);
-  validated.deviation = 100 * (validated.predicted / row.published - 1);
-  validated.within = validated.deviation >= row.least && validated.deviation <= row.most;
+  validated.deviation = row.deviation(validated.predicted);
+  validated.within = row.allows(validated.deviation);
   validated.limit = result.limit.part;
   return validated;
 }

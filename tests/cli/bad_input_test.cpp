@@ -10,6 +10,7 @@
 #include "platform/images/image_codecs.hpp"
 #include "platform/results/output_file.hpp"
 #include "tests/cli/program.hpp"
+#include "tests/paths.hpp"
 #include "tests/platform/unprivileged.hpp"
 
 namespace parallax {
@@ -369,9 +370,7 @@ TEST_F(BadInput, WhatIsUnusualButFineIsSaidOnce) {
 }
 
 TEST_F(BadInput, ExhaustedMemoryIsOneLineToo) {
-#ifdef PARALLAX_SANITIZED
-  GTEST_SKIP() << "the sanitizer reserves more than any limit";
-#endif
+  if (test::sanitized()) GTEST_SKIP() << "the sanitizer reserves more than any limit";
   const auto limited = [] {
     const rlimit small{300U << 20U, 300U << 20U};
     ::setrlimit(RLIMIT_AS, &small);

@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "tests/cli/program.hpp"
 #include "tests/paths.hpp"
 #include "tests/platform/temporary_folder.hpp"
 
@@ -71,9 +72,7 @@ std::vector<std::string> all_pages() {
 class Page : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(Page, EveryCommandRunsAndPrintsWhatIsShown) {
-#ifdef PARALLAX_SANITIZED
-  GTEST_SKIP() << "minutes with sanitizers, and nothing that other tests do not run";
-#endif
+  if (sanitized()) GTEST_SKIP() << "minutes with sanitizers, and nothing that other tests do not run";
   const std::string& page = GetParam();
   const TemporaryFolder folder;
   for (const FencedBlock& block : fenced_blocks(read_text(source_path(page)))) {
@@ -94,6 +93,30 @@ TEST_P(Page, EveryCommandRunsAndPrintsWhatIsShown) {
 
 INSTANTIATE_TEST_SUITE_P(Documents, Page, ::testing::ValuesIn(pages_with_commands()),
                          [](const auto& page) { return fs::path(page.param).stem().string(); });
+
+// Whether a page shows a command line that begins with these words.
+bool shown_on_a_page(const std::string& words) {
+  for (const std::string& page : pages_with_commands()) {
+    for (const FencedBlock& block : fenced_blocks(read_text(source_path(page)))) {
+      if (block.language != "console") continue;
+      for (const Command& command : commands_of(block)) {
+        if (command.text.find(words) != std::string::npos) return true;
+      }
+    }
+  }
+  return false;
+}
+
+TEST(Documents, EveryCommandOfTheProgramIsOnAPage) {
+  const std::string help = Program()("--help").out;
+  const std::vector<std::string> lines = lines_of(help.substr(help.find("Subcommands:")));
+  ASSERT_GE(lines.size(), 10u) << help;
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    if (lines[i].rfind("  ", 0) != 0 || lines[i][2] == ' ') continue;  // what a command does, continued
+    const std::string command = lines[i].substr(2, lines[i].find(' ', 2) - 2);
+    EXPECT_TRUE(shown_on_a_page("parallax " + command)) << command << ": show it on a page of platform/doc";
+  }
+}
 
 TEST(Documents, LinesAreComparedByTextAndNumbers) {
   EXPECT_TRUE(shows("rate  100.2 fps", "rate 100.4 fps"));

@@ -31,7 +31,7 @@ struct Outcome {
 /// AddressSanitizer says on standard error that it does not know the stack that an exception unwinds, when
 /// that is one of the kernel's threads.
 inline std::string without_sanitizer_notes(const std::string& text) {
-#ifdef PARALLAX_SANITIZED
+  if (!sanitized()) return text;
   std::istringstream lines(text);
   std::string kept;
   for (std::string line; std::getline(lines, line);) {
@@ -41,9 +41,6 @@ inline std::string without_sanitizer_notes(const std::string& text) {
     if (!note) kept += line + "\n";
   }
   return kept;
-#else
-  return text;
-#endif
 }
 
 /// Runs the program with a folder of its own as the working directory: the files of a test are there.

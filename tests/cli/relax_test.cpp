@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/program.hpp"
@@ -69,6 +70,17 @@ TEST_F(Relax, GainsAreSortedAndThoseOfRunsWithTheKeysSet) {
         program_("run --timing-only --json --size 64x48 -d 32 --set link.host_pixel_rate=1e6" + sets);
     EXPECT_EQ(nlohmann::json::parse(again.out)["performance"]["frame_rate"]["value"],
               entry["frame_rate"]["value"]);
+  }
+}
+
+// The memory is taken away whatever was said of its devices.
+TEST_F(Relax, TakesAMemoryAwayWhoseDevicesWereSet) {
+  for (const char* devices : {"--set memory.device=ddr4-2400-x64", "--set dram.bus_bytes=2"}) {
+    const nlohmann::json tree = run(devices);
+    const auto memory = std::find_if(tree["relaxations"].begin(), tree["relaxations"].end(),
+                                     [](const nlohmann::json& entry) { return entry["name"] == "memory"; });
+    ASSERT_NE(memory, tree["relaxations"].end()) << devices;
+    EXPECT_TRUE(memory->contains("gain")) << devices << ": " << memory->dump();
   }
 }
 

@@ -87,9 +87,7 @@ TEST_P(RunChain, HostReceivesWhatTheKernelsCompute) {
           ? identity_map(size.width, size.height, config.rectification.range)
           : build_map(read_calibration({(program / "in/calib.yml").string()}, {size.width, size.height}),
                       config.rectification.range);
-  const Granularity granularity{static_cast<int>(config.image.width_granularity),
-                                static_cast<int>(config.image.height_granularity)};
-  const StereoImages images = rectify(config.rectification, map, pad_images(raw, granularity));
+  const StereoImages images = rectify(config.rectification, map, pad_images(raw, config.image.granularity()));
   const std::vector<Disparity> expected =
       crop_disparities(test::run_chain(config, images.left, images.right), images.left.cols, size);
 

@@ -12,6 +12,7 @@
 #include "platform/results/disparity_bin.hpp"
 #include "platform/results/result_images.hpp"
 #include "tests/cli/program.hpp"
+#include "tests/paths.hpp"
 
 namespace parallax {
 namespace run_results_test {
@@ -255,9 +256,7 @@ TEST_F(RunResults, TheCommandInTimingMakesTheRunAgain) {
 }
 
 TEST_F(RunResults, MemoryStaysFlatOverASequence) {
-#ifdef PARALLAX_SANITIZED
-  GTEST_SKIP() << "the sanitizer keeps freed memory for a while";
-#endif
+  if (test::sanitized()) GTEST_SKIP() << "the sanitizer keeps freed memory for a while";
   const auto peak = [&](int frames) {
     run("--size 160x128 --frames " + std::to_string(frames) + " --out out");
     return timing("out/")["run"]["peak_memory"]["value"].get<double>();

@@ -107,9 +107,7 @@ TEST_F(TimingOnly, ReadsNoImageButTheFirstPair) {
 }
 
 TEST_F(TimingOnly, TakesLessThan150MegabytesAtTheLargestSize) {
-#ifdef PARALLAX_SANITIZED
-  GTEST_SKIP() << "the sanitizer has memory of its own";
-#endif
+  if (test::sanitized()) GTEST_SKIP() << "the sanitizer has memory of its own";
   EXPECT_LT(run("--timing-only --size 1728x1856 -d 256")["run"]["peak_memory"]["value"], 150.0);
   // One that has to be padded.
   EXPECT_LT(run("--timing-only --size 1720x1850 -d 256")["run"]["peak_memory"]["value"], 150.0);

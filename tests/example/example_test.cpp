@@ -4,59 +4,12 @@
 
 #include <vector>
 
+#include "tests/example/ends.hpp"
 #include "tests/example/fill_from_left_stage.hpp"
 #include "tests/example/slow_copy.hpp"
 
 namespace parallax::test {
 namespace example_test {
-
-// A row's values enter with its first token, or one by one.
-enum class Sending { kRows, kTokens };
-
-class Source final : public sc_core::sc_module {
- public:
-  StreamOut<Disparity> out{"out"};
-  Source(const sc_core::sc_module_name& name, std::vector<Disparity> row, Sending sending)
-      : sc_module(name), row_(std::move(row)), sending_(sending) {
-    SC_HAS_PROCESS(Source);
-    SC_THREAD(run);
-  }
-
- private:
-  void run() {
-    if (sending_ == Sending::kRows) out.send_row(row_.data(), row_.size());
-    for (const Disparity& value : row_) {
-      if (sending_ == Sending::kTokens) {
-        out->write(value);
-      } else {
-        out->wait_writable();
-        out->commit();
-      }
-    }
-  }
-  const std::vector<Disparity> row_;
-  const Sending sending_;
-};
-
-class Sink final : public sc_core::sc_module {
- public:
-  StreamIn<Disparity> in{"in"};
-  std::vector<Disparity> values;
-  std::vector<std::int64_t> cycles;
-  Sink(const sc_core::sc_module_name& name, const ClockDomain& clock) : sc_module(name), clock_(clock) {
-    SC_HAS_PROCESS(Sink);
-    SC_THREAD(run);
-  }
-
- private:
-  void run() {
-    for (;;) {
-      values.push_back(in->read());
-      cycles.push_back(clock_.now().count());
-    }
-  }
-  const ClockDomain& clock_;
-};
 
 // source -> FillFromLeftStage -> SlowCopy -> sink
 class Chain {

@@ -17,22 +17,6 @@ constexpr int kWidth = 96;
 constexpr int kHeight = 48;
 constexpr std::int64_t kFrames = 4;
 
-/// Bars of noise, shifted to the left.
-inline SensorImage shifted_image(std::size_t shift) {
-  std::mt19937 random(7);
-  auto pixels = std::make_shared<std::vector<Gray>>();
-  std::vector<Gray> line(kWidth + 64);
-  for (int y = 0; y < kHeight; ++y) {
-    if (y % 3 == 0) {
-      for (Gray& pixel : line) pixel = static_cast<Gray>(100 + random() % (y < 20 ? 6 : 120));
-    }
-    for (std::size_t x = 0; x < kWidth; ++x) {
-      pixels->push_back(static_cast<Gray>(line[x + shift] + random() % 4));
-    }
-  }
-  return pixels;
-}
-
 /// What a run gave: a fault's text, or the disparities of the last frame and dates in cycles of the core.
 struct MachineRun {
   std::string fault;
@@ -59,7 +43,9 @@ inline MachineRun run_machine(const MachineConfig& config, const StageReplacemen
     // time that reads values would miss them.
     input.frames = kFrames + 4;
     input.replacements = replacements;
-    input.expose = [](std::int64_t) { return StereoFrame{shifted_image(12), shifted_image(20)}; };
+    input.expose = [](std::int64_t) {
+      return StereoFrame{shifted_bars(kWidth, kHeight, 12), shifted_bars(kWidth, kHeight, 20)};
+    };
     std::vector<Disparity> last;
     input.deliver = [&last](const FrameResult& result) {
       if (result.index + 1 != kFrames) return;

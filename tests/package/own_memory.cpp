@@ -12,6 +12,7 @@
 #include "platform/config/configuration.hpp"
 #include "platform/machine/machine.hpp"
 #include "platform/results/run_metrics.hpp"
+#include "platform/results/run_summary.hpp"
 
 class SlowMemory final : public sc_core::sc_module {
  public:

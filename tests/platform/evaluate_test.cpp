@@ -10,6 +10,7 @@
 #include <fstream>
 
 #include "platform/machine/steady_state.hpp"
+#include "tests/paths.hpp"
 #include "tests/timing/machine_bench.hpp"
 
 namespace parallax::test {
@@ -115,9 +116,7 @@ TEST_F(Evaluate, AMachineThatGetsStuckSaysWhoWaits) {
 }
 
 TEST_F(Evaluate, AFaultOfTheComputerIsAFailure) {
-#ifdef PARALLAX_SANITIZED
-  GTEST_SKIP() << "the sanitizer reserves more than any limit";
-#endif
+  if (sanitized()) GTEST_SKIP() << "the sanitizer reserves more than any limit";
   rlimit before{};
   ::getrlimit(RLIMIT_AS, &before);
   std::ifstream pages("/proc/self/statm");

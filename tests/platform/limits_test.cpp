@@ -181,17 +181,17 @@ Part stage(const char* name) { return {PartKind::kStage, name, "", {}}; }
 
 TEST(FindLimit, TheFirstOfEqualsThatIsAtWorkAllTheTime) {
   const Part a = stage("a"), b = stage("b"), c = stage("c");
-  const LimitVerdict verdict = find_limit({{&a, 0.5, 5}, {&b, 0.995, 9.9}, {&c, 1.0, 10}});
-  EXPECT_TRUE(verdict.limited);
-  EXPECT_EQ(verdict.busiest.part, &b);
-  EXPECT_EQ(verdict.next.part, &a);
+  const Limit limit = find_limit({{&a, 0.5, 5}, {&b, 0.995, 9.9}, {&c, 1.0, 10}});
+  EXPECT_TRUE(limit.limited);
+  EXPECT_EQ(limit.busiest.part, &b);
+  EXPECT_EQ(limit.next.part, &a);
 }
 
 TEST(FindLimit, NoneWhenAllHaveTimeToSpare) {
   const Part a = stage("a"), b = stage("b");
-  const LimitVerdict verdict = find_limit({{&a, 0.5, 5}, {&b, 0.94, 9.4}});
-  EXPECT_FALSE(verdict.limited);
-  EXPECT_EQ(verdict.busiest.part, &b);
+  const Limit limit = find_limit({{&a, 0.5, 5}, {&b, 0.94, 9.4}});
+  EXPECT_FALSE(limit.limited);
+  EXPECT_EQ(limit.busiest.part, &b);
 }
 
 }  // namespace limits_test

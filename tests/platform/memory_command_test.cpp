@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <zlib.h>
 
@@ -12,6 +13,7 @@
 #include "platform/commands/cli.hpp"
 #include "platform/config/dram_device.hpp"
 #include "platform/config/preset.hpp"
+#include "platform/config/schema.hpp"
 #include "platform/input/address_trace.hpp"
 #include "tests/paths.hpp"
 #include "tests/platform/error_of.hpp"
@@ -69,7 +71,9 @@ TEST_F(MemoryCommand, EveryDeviceMovesDataAtLessThanItsPeak) {
   for (int i = 0; i < 2000; ++i)
     text += "0," + std::string(i % 3 == 0 ? "W" : "R") + "," + std::to_string(i * 64) + ",64\n";
   const std::string trace = write(text);
-  for (const char* device : {"ddr3-1066-x32", "ddr3-1600-x64", "ddr4-2400-x64", "lpddr4-3200-x32"}) {
+  const std::vector<PresetSummary> devices = list_presets({test::source_path("platform/presets/memory")});
+  ASSERT_GE(devices.size(), 4u);
+  for (const auto& [device, description] : devices) {
     for (const char* mapping : {"rbc", "brc", "rbcg"}) {
       const Outcome outcome = run({trace, "--config", device, "--mapping", mapping, "--json"});
       ASSERT_EQ(outcome.code, 0) << outcome.err;
@@ -149,6 +153,7 @@ TEST_F(MemoryCommand, ADeviceOfOnesOwn) {
   EXPECT_EQ(load_dram_device(device, {test::source_path("platform/presets")}).cl, 9);
   const std::string wrong = write("description = \"\"\n[dram]\ntCL = 9\n", "wrong.toml");
   EXPECT_NE(error_of([&] { load_dram_device(wrong, {}); }).find("dram.tCL"), std::string::npos);
+  EXPECT_EQ(error_of([] { load_dram_device("none", {}); }), "no memory device 'none' in no folder");
   DramTiming timing;
   const auto complaint = [&timing](auto change) {
     timing = {};
@@ -166,6 +171,38 @@ TEST_F(MemoryCommand, ADeviceOfOnesOwn) {
   EXPECT_EQ(complaint([](DramTiming& t) { t.refi = 173; }),
             "dram.refi = 173: must be 0 or more than dram.rfc + dram.rp_all + dram.rc = 173");
   EXPECT_EQ(complaint([](DramTiming&) {}), "(no error)");
+}
+
+TEST_F(MemoryCommand, ADeviceOfAnotherClockStatesAllItsTimes) {
+  const auto error = [this](const std::string& text) {
+    const std::string device = write("description = \"\"\n" + text, "device.toml");
+    return error_of([&] { load_dram_device(device, {test::source_path("platform/presets")}); });
+  };
+  std::string times;
+  Schema schema;
+  DramTiming timing;
+  describe(schema, timing);
+  for (const Key& key : schema.keys()) {
+    if (key.unit == "clocks")
+      times += fmt::format("{} = {}\n", key.name(), std::get<std::int64_t>(key.get()));
+  }
+  const std::string inherits = "inherits = \"ddr3-1066-x32\"\n";
+  const std::string clock = "[dram]\nclock_period_ps = 2500\n";
+  EXPECT_EQ(error(clock + times), "(no error)");
+  EXPECT_EQ(error(inherits + clock + times), "(no error)");
+  EXPECT_EQ(error(inherits + "[dram]\ncl = 8\nbanks = 16\n"), "(no error)");
+  const auto without = [&](const std::string& line) {
+    std::string left = times;
+    left.erase(left.find(line), line.size());
+    return left;
+  };
+  for (const std::string& head : {std::string(), inherits}) {
+    const std::string message = error(head + clock + without("cl = 7\n"));
+    const std::string expected =
+        "dram.clock_period_ps is stated without all times in its clocks; state too: dram.cl";
+    EXPECT_EQ(message.substr(message.find("dram.clock")), expected);
+    EXPECT_NE(message.find("device.toml:"), std::string::npos) << message;
+  }
 }
 
 // The median of three public cycle-accurate simulators, where the reference is there.

@@ -13,6 +13,7 @@
 #include "platform/results/legend.hpp"
 #include "platform/results/peak_memory.hpp"
 #include "platform/results/result_images.hpp"
+#include "tests/paths.hpp"
 #include "tests/platform/error_line.hpp"
 #include "tests/platform/python.hpp"
 #include "tests/platform/random_map.hpp"
@@ -136,9 +137,7 @@ TEST_F(Strip, TheSmallestFrames) {
 }
 
 TEST(StripFile, MemoryStaysFlat) {
-#ifdef PARALLAX_SANITIZED
-  GTEST_SKIP() << "the sanitizer keeps freed memory for a while";
-#endif
+  if (test::sanitized()) GTEST_SKIP() << "the sanitizer keeps freed memory for a while";
   const TemporaryFolder folder;
   const cv::Size size(320, 240);
   const std::vector<Disparity> map = test::random_map(size.width, size.height, 3);

@@ -120,7 +120,8 @@ TEST_F(Report, SaysWhetherThePublishedFiguresAreReached) {
   };
   EXPECT_EQ(verdict(""), "pass");
   EXPECT_EQ(verdict("--set clocks.core_hz=100e6"), "fail");
-  EXPECT_EQ(verdict("-d 96"), "soft");  // says nothing
+  EXPECT_EQ(verdict("--set link.host_pixel_rate=0"), "fail");  // 38 % above
+  EXPECT_EQ(verdict("-d 96"), "soft");                         // says nothing
 }
 
 TEST_F(Report, OfADeadlockSaysWhoWaits) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <memory>
 #include <random>
 #include <string>
 #include <vector>
@@ -42,6 +43,21 @@ inline MachineConfig pipeline_alone(MachineConfig config) {
   config.software.response_ns = 0;
   config.software.queue_frames = true;
   return config;
+}
+
+/// An image of bars of noise, three rows high, that begin `shift` px further left; `shift` at most 64. Two
+/// that differ in it match.
+inline SensorImage shifted_bars(int width, int height, std::size_t shift) {
+  std::mt19937 random(7);
+  auto pixels = std::make_shared<std::vector<Gray>>();
+  std::vector<Gray> line(width + 64);
+  for (int y = 0; y < height; ++y) {
+    if (y % 3 == 0) {
+      for (Gray& pixel : line) pixel = static_cast<Gray>(100 + random() % (y < 20 ? 6 : 120));
+    }
+    for (int x = 0; x < width; ++x) pixels->push_back(static_cast<Gray>(line[x + shift] + random() % 4));
+  }
+  return pixels;
 }
 
 /// A lens's map with noise on it, so that it takes about `bytes_per_pixel` bytes a pixel and image.

@@ -2,12 +2,14 @@
 // Software drives the core through its registers, and others may look at them or change them meanwhile.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 #include <memory>
 #include <sstream>
 
 #include "platform/registers/core_driver.hpp"
 #include "platform/registers/register_map.hpp"
+#include "platform/registers/run_time_parameters.hpp"
 #include "tests/timing/in_child.hpp"
 #include "tests/timing/machine_bench.hpp"
 #include "tests/tlm/thread.hpp"
@@ -18,21 +20,6 @@ namespace machine_registers_test {
 constexpr int kWidth = 96;
 constexpr int kHeight = 48;
 constexpr std::int64_t kFrames = 4;
-
-SensorImage image(std::uint32_t shift) {
-  std::mt19937 random(7);
-  std::vector<Gray> line(kWidth + 64);
-  auto pixels = std::make_shared<std::vector<Gray>>();
-  for (int y = 0; y < kHeight; ++y) {
-    if (y % 3 == 0) {
-      for (Gray& pixel : line) pixel = static_cast<Gray>(100 + random() % (y < 20 ? 6 : 120));
-    }
-    for (int x = 0; x < kWidth; ++x) {
-      pixels->push_back(static_cast<Gray>(line[static_cast<std::size_t>(x) + shift] + random() % 4));
-    }
-  }
-  return pixels;
-}
 
 std::string text_of(const FrameResult& result) {
   std::ostringstream out;
@@ -57,7 +44,9 @@ std::string run(const MachineConfig& config, const std::function<void(MachineInp
     input.height = kHeight;
     input.map = &map;
     input.frames = kFrames;
-    input.expose = [](std::int64_t) { return StereoFrame{image(12), image(20)}; };
+    input.expose = [](std::int64_t) {
+      return StereoFrame{shifted_bars(kWidth, kHeight, 12), shifted_bars(kWidth, kHeight, 20)};
+    };
     input.deliver = [&](const FrameResult& result) { text += text_of(result) + "\n"; };
     if (change) change(input);
     Machine machine("machine", config, input);
@@ -91,6 +80,14 @@ TEST(MachineRegisters, ParametersCountFromTheFrameTheyAreWrittenBefore) {
       {"texture.enabled=false"},           {"speckle.iterations=0"},
       {"gap_interpolation.enabled=false"}, {"noise_reduction.enabled=false"},
       {"subpixel.mask_border=false"},      {"speckle.iterations=1", "matching.p2=100"}};
+  for (const RunTimeParameter& p : run_time_parameters()) {
+    const auto names = [&p](const std::vector<std::string>& set) {
+      return std::any_of(set.begin(), set.end(),
+                         [&p](const std::string& s) { return s.rfind(std::string(p.key) + "=", 0) == 0; });
+    };
+    EXPECT_EQ(std::any_of(sets.begin(), sets.end(), names), !run_time_remark(p.key).empty())
+        << p.key << ": each parameter that may change is looked at";
+  }
   const std::string before = usual();
   int differ = 0;
   for (const std::vector<std::string>& set : sets) {
@@ -205,6 +202,42 @@ TEST(MachineRegisters, AnotherInitiatorSeesAndStopsTheCore) {
   ASSERT_EQ(all.size(), 5u) << seen.substr(0, 500);
   EXPECT_EQ(all.back(), "rejected some");
   EXPECT_EQ(all[3], usual());
+}
+
+// A core that is switched off refuses starts; what the run says of a frame's parameters is asked for once all
+// the same, and a run that is not stopped at its end has no more frames than it asked for.
+TEST(MachineRegisters, ARefusedStartIsTriedAgainWithTheSameParameters) {
+  std::string asked;
+  int finished = 0;
+  const std::string seen = run(
+      small(),
+      [&](MachineInput& input) {
+        input.parameters = [&asked](std::int64_t frame) {
+          asked += std::to_string(frame) + " ";
+          return std::optional<AlgorithmParameters>();
+        };
+        input.finished = [&finished] { ++finished; };
+      },
+      [&](Machine& machine) {
+        return asked + "finished " + std::to_string(finished) + " rejected " +
+               (machine.rejected_starts() > 1 ? "several" : "one or none");
+      },
+      [](Machine&, CoreDriver& driver) {
+        const std::uint32_t control = driver.read("stereo", "control");
+        const auto wait_for_frames = [&driver](std::uint32_t frames) {
+          while (driver.read("dma", "status") >> 16 < frames)
+            sc_core::wait(sc_core::sc_time(1, sc_core::SC_US));
+        };
+        wait_for_frames(1);
+        driver.write("stereo", "control", control & ~1U);
+        sc_core::wait(sc_core::sc_time(100, sc_core::SC_MS));
+        driver.write("stereo", "control", control);
+        wait_for_frames(kFrames + 2);
+        sc_core::sc_stop();
+      });
+  const std::vector<std::string> all = lines(seen);
+  ASSERT_EQ(all.size(), static_cast<std::size_t>(kFrames) + 1) << seen.substr(0, 500);
+  EXPECT_EQ(all.back(), "0 1 2 3 finished 1 rejected several");
 }
 
 // P2 written at any time, by somebody else, counts from the next frame on.

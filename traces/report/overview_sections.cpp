@@ -107,19 +107,17 @@ std::string images_section(const ReportInput& input) {
 
 std::string budget_section(const ReportInput& input) {
   Table table(
-      "What has been published of this machine, and what this run reaches. A row of another size or range "
+      "What has been published of this machine, and what this run reaches; pass: as near as the row asks. A "
+      "row of another size or range "
       "says nothing about this run; parallax validate runs them all.",
       {"published for", "figure", "published", "this run", "deviation", "verdict", "source"}, "words");
   for (const BudgetLine& line : input.budget) {
     std::vector<std::string> cells = {escaped(line.name), escaped(words(line.metric)),
                                       large_number(line.published, line.unit)};
     if (line.reached) {
-      // Of time and power less is better, of all else more.
-      const bool less = line.unit == "ms" || line.unit == "W";
-      const bool pass = less ? *line.reached <= line.published : *line.reached >= line.published;
       cells.push_back(large_number(*line.reached, line.unit));
-      cells.push_back(fmt::format("{:+.2f} %", 100 * (*line.reached / line.published - 1)));
-      cells.push_back(pass ? "<span class=\"pass\">pass</span>" : "<span class=\"fail\">fail</span>");
+      cells.push_back(fmt::format("{:+.2f} %", line.deviation));
+      cells.push_back(line.within ? "<span class=\"pass\">pass</span>" : "<span class=\"fail\">fail</span>");
     } else {
       cells.insert(cells.end(), {"", "", "<span class=\"soft\">another size or range</span>"});
     }

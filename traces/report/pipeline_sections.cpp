@@ -212,7 +212,7 @@ std::string stages_section(const ReportInput& input) {
   if (stages.empty()) return "";
   std::vector<std::string> headings = {
       "stage", metric_term(stages.front(), "cycles_per_frame", "cycles a frame"), "interval",
-      metric_term(stages.front(), "utilisation", "busy of the frame"), "where its time goes"};
+      metric_term(stages.front(), "utilisation", "utilisation"), "where its time goes"};
   for (const ActivityTitle& activity : kActivities)
     headings.push_back(metric_term(stages.front(), activity.name, activity.title));
   Table table("Where the time of each stage goes", headings);

@@ -24,7 +24,9 @@ struct BudgetLine {
   std::string metric;
   std::string unit;
   double published = 0;
-  std::optional<double> reached;  ///< none: this run does not say, it is of another size or range
+  std::optional<double> reached{};  ///< none: this run does not say, it is of another size or range
+  double deviation = 0;             ///< of `reached`, percent of what was published
+  bool within = false;              ///< the deviation is one that the row allows
 };
 
 /// What a report is made of.
