@@ -28,21 +28,6 @@ struct Outcome {
   std::string err;
 };
 
-/// AddressSanitizer says on standard error that it does not know the stack that an exception unwinds, when
-/// that is one of the kernel's threads.
-inline std::string without_sanitizer_notes(const std::string& text) {
-  if (!sanitized()) return text;
-  std::istringstream lines(text);
-  std::string kept;
-  for (std::string line; std::getline(lines, line);) {
-    const bool note = line.find("__asan_handle_no_return") != std::string::npos ||
-                      line.rfind("False positive error reports may follow", 0) == 0 ||
-                      line.rfind("For details see ", 0) == 0;
-    if (!note) kept += line + "\n";
-  }
-  return kept;
-}
-
 /// Runs the program with a folder of its own as the working directory: the files of a test are there.
 class Program {
  public:
@@ -78,7 +63,7 @@ class Program {
     int status = 0;
     if (::waitpid(child, &status, 0) != child) throw std::runtime_error("cannot wait for the program");
     return {WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status), out_.read("out"),
-            without_sanitizer_notes(out_.read("err"))};
+            out_.read("err")};
   }
 
   /// Everything below the working directory, sorted, folders with a slash at the end.

@@ -362,7 +362,7 @@ TEST(ImagePairs, ListErrors) {
 
 TEST(ImagePadding, PadsByRepetitionAndCropsBack) {
   const StereoImages images{grey(45, 33, 1), grey(45, 33, 2)};
-  const StereoImages padded = pad_images(images, {});
+  const StereoImages padded = pad_images(images, ImageConfig{}.granularity());
   ASSERT_EQ(padded.left.size(), cv::Size(64, 48));
   ASSERT_EQ(padded.right.size(), cv::Size(64, 48));
   for (int y = 0; y < 48; ++y) {
@@ -372,7 +372,8 @@ TEST(ImagePadding, PadsByRepetitionAndCropsBack) {
     }
   }
   EXPECT_EQ(cv::norm(crop_image(padded.right, {45, 33}), images.right, cv::NORM_INF), 0);
-  EXPECT_EQ(pad_images(padded, {}).left.data, padded.left.data) << "nothing to do, nothing copied";
+  EXPECT_EQ(pad_images(padded, ImageConfig{}.granularity()).left.data, padded.left.data)
+      << "nothing to do, nothing copied";
 
   std::vector<Disparity> map(64 * 48);
   for (std::size_t i = 0; i < map.size(); ++i) {
@@ -384,8 +385,8 @@ TEST(ImagePadding, PadsByRepetitionAndCropsBack) {
 }
 
 TEST(ImagePadding, Notice) {
-  EXPECT_EQ(padding_notice({640, 480}, {}), "");
-  EXPECT_EQ(padding_notice({450, 375}, {}),
+  EXPECT_EQ(padding_notice({640, 480}, ImageConfig{}.granularity()), "");
+  EXPECT_EQ(padding_notice({450, 375}, ImageConfig{}.granularity()),
             "image size 450x375 is not a multiple of 32x16: processed as 480x384 by repeating the last "
             "column and row, "
             "results are cropped back");

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tlm/dma.hpp"
-#include "tests/paths.hpp"
 
 #include <gtest/gtest.h>
 #include <tlm_utils/simple_target_socket.h>
@@ -322,8 +321,6 @@ TEST(DmaReader, ReadsDownwards) {
 }
 
 TEST(DmaReader, AnErrorOfTheMemoryIsReported) {
-  if (sanitized())
-    GTEST_SKIP() << "the sanitizer does not follow an exception through the stacks of the kernel's threads";
   ReaderBench<BusMemoryTarget> b(engine(16, 4, 8), 6, 0, plain_memory(), memory_clock());
   b.reader.start({(1 << 16) - 8, {16}, false, nullptr});
   try {
