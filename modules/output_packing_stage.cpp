@@ -9,20 +9,34 @@ class PixelFirings {
  public:
   explicit PixelFirings(Bytes burst) : burst_(burst.count()) {}
 
-  void drop(int pixels) { firings_.add(fires(pixels).reads(0b11)); }
+  void drop(int pixels) { quiet_ += pixels; }
   // A pixel after which the piece has `bytes` bytes; `last`: it ends there.
   void pack(std::uint64_t bytes, bool last) {
     const std::uint64_t complete = last ? (bytes + burst_ - 1) / burst_ : bytes / burst_;
-    firings_.add(fires().reads(0b11).writes(complete == bursts_ ? 0 : 0b1));
-    // A burst smaller than a pixel pair leaves in a cycle of its own.
-    if (complete > bursts_ + 1) firings_.add(fires(complete - bursts_ - 1).writes(0b1));
+    if (complete == bursts_) {
+      ++quiet_;
+    } else {
+      add_quiet();
+      firings_.add(fires().reads(0b11).writes(0b1));
+      // A burst smaller than a pixel pair leaves in a cycle of its own.
+      if (complete > bursts_ + 1) firings_.add(fires(complete - bursts_ - 1).writes(0b1));
+    }
     bursts_ = last ? 0 : complete;
   }
-  Schedule schedule() const { return Schedule().run(firings_); }
+  Schedule schedule() {
+    add_quiet();
+    return Schedule().run(firings_);
+  }
 
  private:
+  void add_quiet() {
+    firings_.add(fires(quiet_).reads(0b11));
+    quiet_ = 0;
+  }
+
   const std::uint64_t burst_;
   std::uint64_t bursts_ = 0;  // complete, of the piece
+  std::uint64_t quiet_ = 0;   // pixels since the last one that completed a burst
   Firings firings_;
 };
 

@@ -95,7 +95,9 @@ void DramController::plan_anew() {
   planned_ = true;
 }
 
-void DramController::plan_exactly() {
+// This and column() are inline: they happen once a burst. The compiler would leave them out of line, which
+// costs 3 % of the instructions of a frame.
+inline void DramController::plan_exactly() {
   plan();
   if (refresh_next_) plan_ = plan_refresh(plan_.clock);
   refresh_next_ = false;
@@ -257,7 +259,7 @@ void DramController::precharge(Clock at, Bank& bank) {
   bank.activate = std::max(bank.activate, at + timing_.rp);
 }
 
-void DramController::column(Clock at, const Burst& burst, std::vector<Done>& done) {
+inline void DramController::column(Clock at, const Burst& burst, std::vector<Done>& done) {
   Bank& bank = banks_[burst.location.bank];
   Free& group = groups_[bank.group];
   const Clock data = at + (burst.write ? timing_.cwl : timing_.cl) + timing_.burst_clocks();

@@ -3,14 +3,6 @@
 
 namespace parallax {
 
-void Firings::add(const Phase& phase) {
-  if (!phases_.empty() && phases_.back().like(phase)) {
-    phases_.back().count += phase.count;
-  } else if (phase.count != 0) {
-    phases_.push_back(phase);
-  }
-}
-
 void Firings::lengthen(std::uint32_t cycles) {
   Phase last = phases_.back();
   if (--phases_.back().count == 0) phases_.pop_back();
@@ -21,6 +13,7 @@ void Firings::lengthen(std::uint32_t cycles) {
 
 Schedule& Schedule::repeat(std::uint64_t times, const std::vector<Phase>& phases) {
   const auto first = static_cast<std::uint32_t>(phases_.size());
+  if (phases_.empty()) phases_.reserve(phases.size());  // most often, all there will be
   for (const Phase& phase : phases) {
     if (phase.count != 0) phases_.push_back(phase);
   }

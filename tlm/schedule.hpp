@@ -40,7 +40,13 @@ constexpr Phase idles(std::uint32_t cycles) { return {cycles == 0 ? 0U : 1U, cyc
 /// Firings put down one after the other: those that do the same as the one before lengthen its phase.
 class Firings {
  public:
-  void add(const Phase& phase);
+  void add(const Phase& phase) {
+    if (!phases_.empty() && phases_.back().like(phase)) {
+      phases_.back().count += phase.count;
+    } else if (phase.count != 0) {
+      phases_.push_back(phase);
+    }
+  }
   /// The firing added last takes `cycles` more. Needs one.
   void lengthen(std::uint32_t cycles);
 
