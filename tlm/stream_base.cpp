@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "tlm/error.hpp"
+#include "tlm/leap_history.hpp"
 
 namespace parallax {
 namespace {
