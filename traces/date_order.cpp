@@ -45,15 +45,23 @@ void DateOrder::begin(const TraceParts& parts) {
 }
 
 void DateOrder::known_until(Picoseconds date) {
-  // The next dates of the lanes, and besides them the earliest of each group: not every lane is looked at for
-  // every date. A date has events in many lanes, as those of one clock share their dates: this costs less
-  // than lanes in order.
+  // The next dates of the lanes that have any to tell, and besides them the earliest of each group: not every
+  // lane is looked at for every date. A date has events in many lanes, as those of one clock share their
+  // dates: this costs less than lanes in order.
   constexpr std::size_t kGroup = 12;
   std::vector<Picoseconds> next;
-  std::vector<Picoseconds> groups((lanes_.size() + kGroup - 1) / kGroup, kNever);
-  for (std::size_t lane = 0; lane < lanes_.size(); ++lane) {
-    next.push_back(lanes_[lane]->next());
-    groups[lane / kGroup] = std::min(groups[lane / kGroup], next.back());
+  std::vector<Lane*> lanes;
+  next.reserve(lanes_.size());
+  lanes.reserve(lanes_.size());
+  for (const std::unique_ptr<Lane>& lane : lanes_) {
+    const Picoseconds first = lane->next();
+    if (first >= date) continue;
+    next.push_back(first);
+    lanes.push_back(lane.get());
+  }
+  std::vector<Picoseconds> groups((lanes.size() + kGroup - 1) / kGroup, kNever);
+  for (std::size_t lane = 0; lane < lanes.size(); ++lane) {
+    groups[lane / kGroup] = std::min(groups[lane / kGroup], next[lane]);
   }
   for (;;) {
     Picoseconds now = kNever;
@@ -62,9 +70,9 @@ void DateOrder::known_until(Picoseconds date) {
     for (std::size_t group = 0; group < groups.size(); ++group) {
       if (groups[group] != now) continue;
       Picoseconds later = kNever;
-      const std::size_t end = std::min(lanes_.size(), (group + 1) * kGroup);
+      const std::size_t end = std::min(lanes.size(), (group + 1) * kGroup);
       for (std::size_t lane = group * kGroup; lane < end; ++lane) {
-        if (next[lane] == now) next[lane] = lanes_[lane]->tell(*sink_);
+        if (next[lane] == now) next[lane] = lanes[lane]->tell(*sink_);
         later = std::min(later, next[lane]);
       }
       groups[group] = later;

@@ -84,9 +84,8 @@ std::string to_text(const EvaluationResult& result) {
       .dump();
 }
 
-EvaluationResult evaluation_result(const std::string& text) {
-  Json tree = Json::parse(text, nullptr, false);
-  if (!tree.is_object() || !tree.contains("status")) return without_result(0);
+EvaluationResult evaluation_result(const std::string& text) try {
+  Json tree = Json::parse(text);
   const std::string word = tree.at("status");
   const Status* const status =
       std::find_if(kStatuses.begin(), kStatuses.end(), [&](Status s) { return word == name(s); });
@@ -96,6 +95,10 @@ EvaluationResult evaluation_result(const std::string& text) {
   result.notes = tree.at("notes").get<std::vector<std::string>>();
   result.configuration = std::move(tree.at("configuration"));
   return result;
+} catch (const Json::exception&) {
+  return without_result(0);
+} catch (const MetricError&) {
+  return without_result(0);
 }
 
 }  // namespace parallax

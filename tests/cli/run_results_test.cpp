@@ -302,6 +302,16 @@ TEST_F(RunResults, VerbosePrintsTheStagesToo) {
   EXPECT_NE(verbose.find("stage "), std::string::npos) << verbose;
 }
 
+TEST_F(RunResults, VerboseNamesTheSynchroniserWhereItHoldsAStageBack) {
+  const auto shares = [&](const std::string& more) {
+    return run("--timing-only --no-verdict --size 160x128 --verbose " + more).out;
+  };
+  EXPECT_NE(
+      shares("--set streams.default_kind=asynchronous --set streams.default_depth=4").find("% synchroniser"),
+      std::string::npos);
+  EXPECT_EQ(shares("").find("% synchroniser"), std::string::npos);
+}
+
 TEST_F(RunResults, OtherCommandsAreQuietToo) {
   const test::Outcome encoded = program_("map encode --identity 64x48 -o a.map --quiet");
   EXPECT_EQ(encoded.code, 0);

@@ -154,13 +154,5 @@ TEST_F(Evaluate, EndsEarlyWhenTheCallerSaysSo) {
   EXPECT_EQ(result.message, "interrupted");
 }
 
-TEST(EvaluationResult, StatusesHaveNames) {
-  EXPECT_STREQ(name(Status::kDone), "done");
-  EXPECT_STREQ(name(Status::kInvalid), "invalid");
-  EXPECT_STREQ(name(Status::kStuck), "stuck");
-  EXPECT_STREQ(name(Status::kFailed), "failed");
-  EXPECT_STREQ(name(Status::kInterrupted), "interrupted");
-}
-
 }  // namespace evaluate_test
 }  // namespace parallax::test
