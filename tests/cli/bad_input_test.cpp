@@ -193,6 +193,9 @@ TEST_F(BadInput, GroundTruth) {
             "unknown.png: no pixel to score; every disparity is 0 (unknown)");
   EXPECT_EQ(pair_error("--ground-truth truth.png --mask black.png"),
             "truth.png: no pixel to score; every disparity is 0 (unknown) or masked by black.png");
+  text("twice.txt", "left.png right.png\nleft.png right.png\n");
+  EXPECT_EQ(error("--input twice.txt --ground-truth truth.png"),
+            "--ground-truth is for one pair, but the input has 2 frames; add --frames 1");
   EXPECT_EQ(error("--ground-truth truth.png"),
             "--ground-truth and --mask go with --left and --right; the built-in scene brings its own");
 }

@@ -330,8 +330,8 @@ TEST(Memory, DebugAccessTakesNoTime) {
 }
 
 TEST(Memory, LeavesOutBytesThatMeanNothing) {
+  TrafficOnly traffic_only;  // the payloads, which b holds, name it to their end
   Bench b;
-  TrafficOnly traffic_only;
   b.thread([&] {
     b[0].send(::tlm::TLM_WRITE_COMMAND, 0x40, 8);
     ::tlm::tlm_generic_payload& write = b[0].take(::tlm::TLM_WRITE_COMMAND, 0x40, 8);
