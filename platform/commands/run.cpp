@@ -52,7 +52,7 @@ class Run {
       folder_ = std::make_unique<OutputFolder>(options_.out);
       folder_->replace(is_result_name);
     }
-    RunFrames writer(images_, folder_.get(), frame_options());
+    RunFrames writer(images_, folder_.get(), frame_options(), configuration_.machine.matching.range().last());
     Simulation simulation(frames_, interrupted_);
     progress_ = std::make_unique<Progress>(context_.err, shows_progress(context_), "frames", frames_);
     // Before this process simulates.
@@ -66,6 +66,7 @@ class Run {
     notes_.begin();
     simulation.run();
     progress_.reset();
+    for (const std::string& remark : writer.remarks()) notes_(remark);
     if (simulation.stopped()) return interrupted(writer);
     if (tracing_) tracing_->finish();
     if (profile_) profile_->finish();

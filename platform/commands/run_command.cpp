@@ -53,10 +53,23 @@ void add_run_command(CLI::App& app, CommandContext& context) {
   command.add_flag("--rectified", options->rectified, "Built-in scene without lens distortion")
       ->group("Input");
   command
-      .add_option("--ground-truth", options->ground_truth,
-                  "True disparities of a pair: 16-bit PNG, disparity * 256, 0 = unknown")
+      .add_option(
+          "--image-bits", options->image_bits,
+          "Bits of the values in 16-bit images, 8 to 16; if not given, as many as the largest value of "
+          "the sequence asks for")
+      ->type_name("COUNT")
+      ->group("Input");
+  command
+      .add_option(
+          "--ground-truth", options->ground_truth,
+          "True disparities of a pair: PNG or TIFF of 8 or 16 bits, float TIFF, PFM or NPY; 0 = unknown")
       ->check(not_empty())
       ->type_name("FILE")
+      ->group("Input");
+  command
+      .add_option("--ground-truth-scale", options->ground_truth_scale,
+                  "True disparity = value / this; if not given, 256 for 16-bit integers and 1 for others")
+      ->type_name("NUMBER")
       ->group("Input");
   command.add_option("--mask", options->mask, "Pixels to score: 8-bit PNG, 255 = score")
       ->check(not_empty())

@@ -7,6 +7,9 @@
 #include <systemc>
 #include <utility>
 
+#include "platform/commands/exchanged_sides.hpp"
+#include "platform/results/truth_scale.hpp"
+
 namespace parallax {
 
 void RunFrames::take(const FrameResult& result) {
@@ -20,8 +23,32 @@ void RunFrames::take(const FrameResult& result) {
   if (frame.truth) {
     totals_.has_truth = true;
     totals_.score += score(frame.disparities, images_.size().width, *frame.truth);
+    if (!images_.is_scene()) {
+      const std::string line = truth_scale_notice(frame.disparities, *frame.truth);
+      if (!line.empty()) remarks_.push_back(line);
+    }
   }
+  if (totals_.frames == 1 && !images_.is_scene() && 2 * totals_.valid < totals_.pixels)
+    look_at_sides(result.index);
   if (folder_ != nullptr) write(result, std::move(frame));
+}
+
+// Costs some hundredths of a second, which only a first frame with little to show is worth.
+void RunFrames::look_at_sides(std::int64_t frame) {
+  constexpr int kUnrectifiedRows = 16;  // px
+  const StereoFrame images = images_.load(frame);
+  const auto mat = [&](const SensorImage& pixels) {
+    cv::Mat image(images_.padded(), CV_8UC1);
+    std::copy(pixels->begin(), pixels->end(), image.begin<Gray>());
+    return crop_image(image, images_.size());
+  };
+  if (!sides_look_exchanged(mat(images.left), mat(images.right), largest_disparity_,
+                            images_.rectified() ? 0 : kUnrectifiedRows))
+    return;
+  remarks_.push_back(
+      "few pixels are valid, and left and right look exchanged: what the left image shows lies further right "
+      "in "
+      "the right image, where it must lie further left");
 }
 
 void RunFrames::write(const FrameResult& result, FrameImages frame) {

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "platform/commands/run_images.hpp"
 #include "platform/machine/frame.hpp"
@@ -15,14 +17,19 @@ namespace parallax {
 /// What comes out of the machine, frame by frame: counted, compared with the ground truth, and written.
 class RunFrames {
  public:
-  /// `folder`: null, if nothing is to be written.
-  RunFrames(const RunImages& images, OutputFolder* folder, FrameResultOptions options)
-      : images_(images), folder_(folder), options_(std::move(options)) {}
+  /// `folder`: null, if nothing is to be written. `largest_disparity`: px, that the machine looks for.
+  RunFrames(const RunImages& images, OutputFolder* folder, FrameResultOptions options, int largest_disparity)
+      : images_(images),
+        folder_(folder),
+        options_(std::move(options)),
+        largest_disparity_(largest_disparity) {}
 
   /// A sequence's frame is published at once; the results of a single pair appear together with its timing.
   void take(const FrameResult& result);
   /// What was added up over the frames until now; `frames`, `pixels`, `valid` and the score.
   const RunTotals& totals() const { return totals_; }
+  /// What the results say of the input, a line each: sides that look exchanged, a truth of another scale.
+  const std::vector<std::string>& remarks() const { return remarks_; }
   /// A sequence's moving picture appears when `publish` has published what else there is.
   template <class Publish>
   void publish_strip_with(const Publish& publish) {
@@ -33,11 +40,14 @@ class RunFrames {
 
  private:
   void write(const FrameResult& result, FrameImages frame);
+  void look_at_sides(std::int64_t frame);
 
   const RunImages& images_;
   OutputFolder* const folder_;
   const FrameResultOptions options_;
+  const int largest_disparity_;
   RunTotals totals_;
+  std::vector<std::string> remarks_;
   std::unique_ptr<StripGif> strip_;  ///< of a sequence
 };
 

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <utility>
 
 #include "platform/scene/scene.hpp"
@@ -47,7 +46,10 @@ class SceneSource final : public FrameSource {
     GroundTruth truth;
     truth.width = config_.width;
     truth.height = config_.height;
-    truth.disparity.assign(seen.disparity.begin<std::uint16_t>(), seen.disparity.end<std::uint16_t>());
+    constexpr float kStepsPerPixel = 256;
+    truth.disparity.reserve(seen.disparity.total());
+    for (auto it = seen.disparity.begin<std::uint16_t>(); it != seen.disparity.end<std::uint16_t>(); ++it)
+      truth.disparity.push_back(static_cast<float>(*it) / kStepsPerPixel);
     truth.mask.assign(seen.mask.begin<std::uint8_t>(), seen.mask.end<std::uint8_t>());
     return truth;
   }
@@ -69,22 +71,18 @@ class SceneSource final : public FrameSource {
 
 class FileSource final : public FrameSource {
  public:
-  FileSource(std::vector<ImagePair> pairs, const ImageLimits& limits, std::int64_t limit,
-             std::string ground_truth, std::string mask, NoticeSink notice)
-      : input_(std::move(pairs), limits, std::move(notice)),
-        frames_(input_.frames()),
-        ground_truth_(std::move(ground_truth)),
-        mask_(std::move(mask)) {
-    if (limit > 0) frames_ = std::min(frames_, limit);
-    if (!ground_truth_.empty() && frames_ > 1) {
+  FileSource(std::vector<ImagePair> pairs, const ImageChoice& choice, const TruthFiles& truth,
+             const NoticeSink& notice)
+      : input_(std::move(pairs), choice, notice) {
+    if (truth.truth.empty()) return;
+    if (frames() > 1) {
       throw UserError(fmt::format(
-          "--ground-truth is for one pair, but the input has {} frames; add --frames 1", frames_));
+          "--ground-truth is for one pair, but the input has {} frames; add --frames 1", frames()));
     }
-    if (!ground_truth_.empty())
-      truth_ = read_ground_truth(ground_truth_, mask_, input_.width(), input_.height());
+    truth_ = read_ground_truth(truth, input_.width(), input_.height(), notice);
   }
 
-  std::int64_t frames() const override { return frames_; }
+  std::int64_t frames() const override { return input_.frames(); }
   int width() const override { return input_.width(); }
   int height() const override { return input_.height(); }
   std::string name() const override { return input_.paths(0).left.string(); }
@@ -94,9 +92,6 @@ class FileSource final : public FrameSource {
 
  private:
   ImageInput input_;
-  std::int64_t frames_;
-  std::string ground_truth_;
-  std::string mask_;
   std::optional<GroundTruth> truth_;
 };
 
@@ -106,10 +101,9 @@ std::unique_ptr<FrameSource> scene_source(const SceneConfig& config, std::int64_
   return std::make_unique<SceneSource>(config, frames);
 }
 
-std::unique_ptr<FrameSource> file_source(std::vector<ImagePair> pairs, const ImageLimits& limits,
-                                         std::int64_t limit, const std::string& ground_truth,
-                                         const std::string& mask, NoticeSink notice) {
-  return std::make_unique<FileSource>(std::move(pairs), limits, limit, ground_truth, mask, std::move(notice));
+std::unique_ptr<FrameSource> file_source(std::vector<ImagePair> pairs, const ImageChoice& choice,
+                                         const TruthFiles& truth, const NoticeSink& notice) {
+  return std::make_unique<FileSource>(std::move(pairs), choice, truth, notice);
 }
 
 }  // namespace parallax

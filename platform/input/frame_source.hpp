@@ -8,7 +8,7 @@
 
 #include "platform/input/calibration.hpp"
 #include "platform/input/image_input.hpp"
-#include "platform/results/ground_truth.hpp"
+#include "platform/results/truth_file.hpp"
 #include "platform/scene/scene_config.hpp"
 
 namespace parallax {
@@ -34,10 +34,8 @@ class FrameSource {
 /// `frames`: how many frames of the endless scene.
 std::unique_ptr<FrameSource> scene_source(const SceneConfig& config, std::int64_t frames);
 
-/// `ground_truth`, `mask`: paths, empty for none; only for a single pair. `limit`: how many of the frames, 0
-/// = all.
-std::unique_ptr<FrameSource> file_source(std::vector<ImagePair> pairs, const ImageLimits& limits,
-                                         std::int64_t limit, const std::string& ground_truth,
-                                         const std::string& mask, NoticeSink notice);
+/// `truth`: its paths are empty for none; only for a single pair.
+std::unique_ptr<FrameSource> file_source(std::vector<ImagePair> pairs, const ImageChoice& choice,
+                                         const TruthFiles& truth, const NoticeSink& notice);
 
 }  // namespace parallax

@@ -8,8 +8,7 @@
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
-#include "platform/images/image_codecs.hpp"
-#include "platform/input/stderr_capture.hpp"
+#include "platform/images/image_file.hpp"
 #include "tlm/error.hpp"
 
 namespace parallax {
@@ -17,40 +16,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string size_text(const cv::Mat& image) { return fmt::format("{}x{}", image.cols, image.rows); }
-
-void require_file(const fs::path& path) {
-  std::error_code failed;
-  const fs::file_status status = fs::status(path, failed);
-  if (!fs::exists(status)) {
-    throw UserError(fmt::format("image {} does not exist", path.string()));
-  }
-  if (fs::is_directory(status)) {
-    throw UserError(fmt::format("{} is a folder, expected an image", path.string()));
-  }
-}
-
-cv::Mat decode(const fs::path& path) {
-  require_file(path);
-  cv::Mat image;
-  std::string complaint;
-  {
-    const StderrCapture capture;
-    try {
-      image = read_image(path.string());
-    } catch (const cv::Exception&) {
-      image.release();
-    }
-    complaint = capture.text();
-  }
-  // The JPEG decoder fills the missing part of a truncated file with grey and only warns.
-  const bool damaged = complaint.find("Corrupt JPEG") != std::string::npos ||
-                       complaint.find("Premature end") != std::string::npos;
-  if (image.empty() || damaged) {
-    throw UserError(
-        fmt::format("cannot read image {}: it is damaged, or not a PNG, JPEG, TIFF, BMP, PNM or WebP file",
-                    path.string()));
-  }
+cv::Mat decode(const fs::path& path, const ImageLimits& limits) {
+  const cv::Mat image = read_image_file(path.string(), "image", [&](const cv::Size& size) {
+    if (size.width <= limits.width && size.height <= limits.height) return;
+    throw UserError(fmt::format("image {} is {}, larger than the largest size {}x{}", path.string(),
+                                size_text(size), limits.width, limits.height));
+  });
   if (image.depth() != CV_8U && image.depth() != CV_16U) {
     const bool real = image.depth() == CV_16F || image.depth() == CV_32F || image.depth() == CV_64F;
     throw UserError(fmt::format("image {} has {} values, expected unsigned integers of 8 or 16 bits",
@@ -59,23 +30,45 @@ cv::Mat decode(const fs::path& path) {
   return image;
 }
 
+// The largest value of the images that have 16 bits; 0 when none has.
+int largest_of_16_bits(const StereoImages& images) {
+  double largest = 0;
+  for (const cv::Mat& image : {images.left, images.right}) {
+    double value = 0;
+    if (image.depth() == CV_16U) cv::minMaxLoc(image, nullptr, &value);
+    largest = std::max(largest, value);
+  }
+  return static_cast<int>(largest);
+}
+
+bool has_16_bits(const StereoImages& images) {
+  return images.left.depth() == CV_16U || images.right.depth() == CV_16U;
+}
+
+// Bits of cameras.
+int bits_of(int largest) {
+  int bits = 8;
+  while (bits < 16 && largest >= 1 << bits) bits += 2;
+  return bits;
+}
+
 }  // namespace
 
-ImageInput::ImageInput(std::vector<ImagePair> pairs, const ImageLimits& limits, NoticeSink notice)
-    : pairs_(std::move(pairs)), limits_(limits), notice_(std::move(notice)) {
+ImageInput::ImageInput(std::vector<ImagePair> pairs, const ImageChoice& choice, NoticeSink notice)
+    : pairs_(std::move(pairs)), choice_(choice), notice_(std::move(notice)) {
   if (pairs_.empty()) {
     throw UserError("there is no image pair to read");
   }
   for (const ImagePair& pair : pairs_) {
-    require_file(pair.left);
-    require_file(pair.right);
+    require_image_file(pair.left.string(), "image");
+    require_image_file(pair.right.string(), "image");
   }
   load(0);
 }
 
 StereoImages ImageInput::load(std::size_t frame) {
   const ImagePair& pair = pairs_.at(frame);
-  StereoImages images = read(pair);
+  const StereoImages images = read_mono(pair);
   if (width_ == 0) {
     width_ = images.left.cols;
     height_ = images.left.rows;
@@ -83,40 +76,46 @@ StereoImages ImageInput::load(std::size_t frame) {
   if (images.left.cols != width_ || images.left.rows != height_) {
     throw UserError(
         fmt::format("image {} is {}, but the sequence began with {}x{}; all frames must have one size",
-                    pair.left.string(), size_text(images.left), width_, height_));
+                    pair.left.string(), size_text(images.left.size()), width_, height_));
   }
-  return images;
+  if (bits_ == 0 && has_16_bits(images)) choose_bits(frame, images);
+  return {to_8_bit(images.left, pair.left), to_8_bit(images.right, pair.right)};
 }
 
-StereoImages ImageInput::read(const ImagePair& pair) {
-  const cv::Mat left = decode(pair.left);
-  const cv::Mat right = decode(pair.right);
+// A sequence that begins dark says little of what is to come. A frame that cannot be read is left for load(),
+// when those before it are complete.
+void ImageInput::choose_bits(std::size_t frame, const StereoImages& images) {
+  if (choice_.bits) {
+    bits_ = *choice_.bits;
+    return;
+  }
+  constexpr int kSixteen = 16;
+  int largest = largest_of_16_bits(images);
+  const std::size_t end = choice_.first_only ? 0 : pairs_.size();
+  for (std::size_t i = frame + 1; i < end && bits_of(largest) < kSixteen; ++i) {
+    try {
+      largest = std::max(largest, largest_of_16_bits(read_mono(pairs_[i])));
+    } catch (const UserError&) {
+      break;
+    }
+  }
+  bits_ = choice_.first_only ? kSixteen : bits_of(largest);
+  if (!notice_ || choice_.first_only) return;
+  notice_(fmt::format(
+      "16-bit images: their values reach {}, so they are taken as {}-bit {}; --image-bits states another",
+      largest, bits_,
+      bits_ == 8 ? "as they are" : fmt::format("and the lower {} bits are dropped", bits_ - 8)));
+}
+
+StereoImages ImageInput::read_mono(const ImagePair& pair) {
+  const cv::Mat left = decode(pair.left, choice_.limits);
+  const cv::Mat right = decode(pair.right, choice_.limits);
   if (left.size() != right.size()) {
     throw UserError(fmt::format("the left image {} is {}, the right image {} is {}; both must have one size",
-                                pair.left.string(), size_text(left), pair.right.string(), size_text(right)));
+                                pair.left.string(), size_text(left.size()), pair.right.string(),
+                                size_text(right.size())));
   }
-  if (left.cols > limits_.width || left.rows > limits_.height) {
-    throw UserError(fmt::format("image {} is {}, larger than the largest size {}x{}", pair.left.string(),
-                                size_text(left), limits_.width, limits_.height));
-  }
-  const cv::Mat mono_left = to_mono(left, pair.left);
-  const cv::Mat mono_right = to_mono(right, pair.right);
-  if (!dropped_bits_ && (left.depth() == CV_16U || right.depth() == CV_16U)) {
-    double largest = 0;
-    for (const cv::Mat& image : {mono_left, mono_right}) {
-      double value = 0;
-      cv::minMaxLoc(image, nullptr, &value);
-      largest = std::max(largest, image.depth() == CV_16U ? value : 0.0);
-    }
-    dropped_bits_ = largest <= 4095 ? 4 : 8;
-    if (notice_) {
-      notice_(fmt::format(
-          "16-bit images: the largest value of the first pair is {}, so they are taken as {}-bit and "
-          "the lower {} bits are dropped",
-          largest, *dropped_bits_ + 8, *dropped_bits_));
-    }
-  }
-  return {to_8_bit(mono_left, pair.left), to_8_bit(mono_right, pair.right)};
+  return {to_mono(left, pair.left), to_mono(right, pair.right)};
 }
 
 cv::Mat ImageInput::to_mono(const cv::Mat& image, const fs::path& path) {
@@ -144,12 +143,12 @@ cv::Mat ImageInput::to_8_bit(const cv::Mat& mono, const fs::path& path) const {
   cv::Mat result(mono.size(), CV_8UC1);
   for (int y = 0; y < mono.rows; ++y) {
     for (int x = 0; x < mono.cols; ++x) {
-      const int value = mono.at<std::uint16_t>(y, x) >> *dropped_bits_;
+      const int value = mono.at<std::uint16_t>(y, x) >> (bits_ - 8);
       if (value > 255) {
-        throw UserError(
-            fmt::format("image {} holds the value {}, but the sequence began with 12-bit values (at most "
-                        "4095)",
-                        path.string(), mono.at<std::uint16_t>(y, x)));
+        throw UserError(fmt::format("image {} holds the value {}, beyond the {} bits{} (at most {})",
+                                    path.string(), mono.at<std::uint16_t>(y, x), bits_,
+                                    choice_.bits ? " of --image-bits" : " that the frames before it have",
+                                    (1 << bits_) - 1));
       }
       result.at<std::uint8_t>(y, x) = static_cast<std::uint8_t>(value);
     }

@@ -21,16 +21,25 @@ struct ImageLimits {
 /// Receives one line about something that is done to the images; each line once.
 using NoticeSink = std::function<void(const std::string& line)>;
 
+/// How the images of a sequence are taken.
+struct ImageChoice {
+  ImageLimits limits;
+  std::optional<int>
+      bits;  ///< 8..16, of the values in 16-bit images; none: as many as the largest value asks for
+  bool first_only = false;  ///< only the size is wanted: nothing but the first pair is looked at
+};
+
 /// A sequence of stereo pairs from files. A frame is read when it is asked for and not kept, so memory does
 /// not grow with the sequence. Every fault of the files is a UserError of one line.
 ///
 /// Colour becomes mono by ITU-R BT.601 (0.299 R + 0.587 G + 0.114 B), transparency is ignored. 16-bit values
-/// become 8-bit ones by dropping low bits: when no value of the first pair exceeds 4095, the sequence holds
-/// 12-bit values and loses 4 bits, otherwise it loses 8. Both are said once.
+/// become 8-bit ones by dropping low bits. How many bits they have is stated, or else it is the least of 8,
+/// 10, 12, 14 and 16 that holds the largest value of the whole sequence, which is looked at before the first
+/// frame; that is said once.
 class ImageInput {
  public:
-  /// Looks whether all files exist, and reads the first pair for the size.
-  ImageInput(std::vector<ImagePair> pairs, const ImageLimits& limits, NoticeSink notice);
+  /// Looks whether all files exist, and reads the first pair for the size; where it has 16 bits, all.
+  ImageInput(std::vector<ImagePair> pairs, const ImageChoice& choice, NoticeSink notice);
 
   std::size_t frames() const { return pairs_.size(); }
   int width() const { return width_; }
@@ -41,16 +50,17 @@ class ImageInput {
   StereoImages load(std::size_t frame);
 
  private:
-  StereoImages read(const ImagePair& pair);
+  StereoImages read_mono(const ImagePair& pair);
+  void choose_bits(std::size_t frame, const StereoImages& images);
   cv::Mat to_mono(const cv::Mat& image, const std::filesystem::path& path);
   cv::Mat to_8_bit(const cv::Mat& mono, const std::filesystem::path& path) const;
 
   std::vector<ImagePair> pairs_;
-  ImageLimits limits_;
+  ImageChoice choice_;
   NoticeSink notice_;
   int width_ = 0;
   int height_ = 0;
-  std::optional<int> dropped_bits_;  ///< of 16-bit input, by its first pair
+  int bits_ = 0;  ///< of 16-bit images; 0: there was none
   bool said_colour_ = false;
 };
 

@@ -9,8 +9,8 @@
 #include <opencv2/core.hpp>
 
 #include "platform/images/image_codecs.hpp"
+#include "platform/images/image_file.hpp"
 #include "platform/input/file_storage.hpp"
-#include "platform/input/input_file.hpp"
 #include "platform/results/output_file.hpp"
 #include "tlm/error.hpp"
 
@@ -40,22 +40,6 @@ cv::Mat matrix(const cv::FileStorage& file, const std::string& path, const char*
   }
   if (mat.empty()) {
     throw UserError(fmt::format("{}: {} is not a matrix", path, name));
-  }
-  return mat;
-}
-
-cv::Mat image(const std::string& path) {
-  const std::vector<std::uint8_t> bytes = read_file(path);
-  cv::Mat mat;
-  try {
-    if (!bytes.empty()) {
-      mat = decode_image(bytes);
-    }
-  } catch (const cv::Exception&) {
-    mat.release();
-  }
-  if (mat.empty()) {
-    throw UserError(fmt::format("{}: not an image that OpenCV reads", path));
   }
   return mat;
 }
@@ -92,7 +76,8 @@ RawMaps read_raw_maps(const std::vector<std::string>& paths) {
     }
   } else if (paths.size() == kMaps.size()) {
     for (std::size_t i = 0; i < kMaps.size(); ++i) {
-      maps.*kMaps[i].map = checked(image(paths[i]), paths[i]);
+      maps.*kMaps[i].map =
+          checked(read_image_file(paths[i], "map", at_most_any_image(paths[i], "map")), paths[i]);
     }
   } else {
     throw UserError(

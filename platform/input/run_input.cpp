@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <utility>
 
@@ -120,11 +121,16 @@ void check_options(const RunOptions& options) {
   count("--frames", options.frames.value_or(1));
   count("--timing-frames", options.timing_frames.value_or(1));
   if (!options.mask.empty() && options.ground_truth.empty()) throw UserError("--mask needs --ground-truth");
+  if (options.ground_truth_scale && options.ground_truth.empty())
+    throw UserError("--ground-truth-scale needs --ground-truth");
+  if (options.image_bits && (*options.image_bits < 8 || *options.image_bits > 16))
+    throw UserError(fmt::format("--image-bits is {}, allowed is 8 to 16", *options.image_bits));
   if (options.fit && options.calibration.empty()) throw UserError("--fit needs --calibration");
   if (!options.map.empty() && !options.calibration.empty()) {
     throw UserError("--map and --calibration exclude each other: both say how to rectify");
   }
   if (options.left.empty() && options.input.empty()) {
+    if (options.image_bits) throw UserError("--image-bits is for 16-bit images, but none are given");
     if (options.ground_truth.empty()) return;
     throw UserError(
         "--ground-truth and --mask go with --left and --right; the built-in scene brings its own");
@@ -142,8 +148,13 @@ std::unique_ptr<FrameSource> open_source(const RunOptions& options, const Machin
   if (options.left.empty() && options.input.empty()) return scene(options, config);
   std::vector<ImagePair> pairs = options.input.empty() ? std::vector<ImagePair>{{options.left, options.right}}
                                                        : find_image_pairs(options.input);
-  auto source = file_source(std::move(pairs), limits(config), options.frames.value_or(0),
-                            options.ground_truth, options.mask, notice);
+  pairs.resize(std::min<std::size_t>(pairs.size(), options.frames.value_or(kMostFrames)));
+  ImageChoice choice;
+  choice.limits = limits(config);
+  choice.bits = options.image_bits;
+  choice.first_only = options.timing_only;
+  auto source = file_source(std::move(pairs), choice,
+                            {options.ground_truth, options.mask, options.ground_truth_scale}, notice);
   const auto demand = [&](const char* key, int wanted, int found) {
     if (wanted != 0 && wanted != found) {
       throw UserError(fmt::format("{} = {}, but {} has {} px; 0 takes it from the images", key, wanted,

@@ -25,7 +25,9 @@ struct RunOptions {
   bool rectified = false;                     ///< the built-in scene without distortion
   std::optional<std::int64_t> frames;         ///< none: all of the input; one of the scene
   std::optional<std::int64_t> timing_frames;  ///< none: the warm-up and three more
+  std::optional<int> image_bits;              ///< of the values in 16-bit images; none: by the largest
   std::string ground_truth;
+  std::optional<double> ground_truth_scale;  ///< disparity = value / scale; none: by the pixel format
   std::string mask;
   // Rectification.
   std::vector<std::string> calibration;

@@ -11,6 +11,7 @@
 
 #include "platform/config/preset.hpp"
 #include "platform/images/image_codecs.hpp"
+#include "platform/images/image_file.hpp"
 #include "platform/report/run_report.hpp"
 #include "platform/results/result_images.hpp"
 #include "platform/validation/published_row.hpp"
@@ -38,6 +39,22 @@ constexpr PageImage kImages[] = {
     {"error.png", "Error against the ground truth", ""},
 };
 
+// The page's copy of an image of a run, no larger than the page wants it.
+cv::Mat page_image(const fs::path& path) {
+  cv::Mat image = read_image_file(path.string(), "result", at_most_any_image(path.string(), "result"));
+  const double scale = std::min(1.0, static_cast<double>(kWidestImage) / image.cols);
+  // A low image keeps a row.
+  const cv::Size size(std::max(1, cvRound(image.cols * scale)), std::max(1, cvRound(image.rows * scale)));
+  if (scale < 1) cv::resize(image, image, size, 0, 0, cv::INTER_AREA);
+  return image;
+}
+
+bool is_gif(const std::vector<std::uint8_t>& bytes) {
+  constexpr std::uint8_t kTrailer = 0x3B;
+  return bytes.size() > 6 && std::string(bytes.begin(), bytes.begin() + 4) == "GIF8" &&
+         bytes.back() == kTrailer;
+}
+
 std::vector<ReportImage> images_of(const fs::path& folder) {
   std::error_code error;
   std::string frame;
@@ -45,10 +62,8 @@ std::vector<ReportImage> images_of(const fs::path& folder) {
   std::vector<ReportImage> images;
   for (const PageImage& wanted : kImages) {
     const fs::path path = folder / frame / wanted.file;
-    cv::Mat image = fs::exists(path, error) ? read_image(path.string()) : cv::Mat();
-    if (image.empty()) continue;
-    const double scale = std::min(1.0, static_cast<double>(kWidestImage) / image.cols);
-    if (scale < 1) cv::resize(image, image, {}, scale, scale, cv::INTER_AREA);
+    if (!fs::exists(path, error)) continue;  // error.png comes with a ground truth
+    const cv::Mat image = page_image(path);
     images.push_back({wanted.title, fmt::format("{}{}", wanted.caption, frame.empty() ? "" : ", first frame"),
                       "image/png", encode_image(".png", image)});
   }
@@ -57,10 +72,12 @@ std::vector<ReportImage> images_of(const fs::path& folder) {
   const fs::path strip = folder / "strip.gif";
   if (fs::exists(strip, error) && fs::file_size(strip, error) <= kLargestStrip) {
     std::ifstream in(strip, std::ios::binary);
-    images.push_back({"All frames",
-                      "left image and disparity",
-                      "image/gif",
-                      {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()}});
+    const std::vector<std::uint8_t> bytes{std::istreambuf_iterator<char>(in),
+                                          std::istreambuf_iterator<char>()};
+    if (!is_gif(bytes))
+      throw UserError(
+          fmt::format("cannot read result {}: it is damaged; run parallax again", strip.string()));
+    images.push_back({"All frames", "left image and disparity", "image/gif", bytes});
   }
   return images;
 }

@@ -84,7 +84,7 @@ cv::Mat error_colors(const DisparityView& map, const GroundTruth& truth) {
   const ColorScale scale = error_scale();
   return picture(map, [&](const Disparity& d, std::size_t i) {
     if (!truth.scored(i)) return kNotScored;
-    return d.valid() ? scale.color(truth.error(i, d) / double{GroundTruth::kStepsPerPixel}) : kInvalidError;
+    return d.valid() ? scale.color(truth.error(i, d)) : kInvalidError;
   });
 }
 

@@ -99,6 +99,24 @@ TEST_F(BadInput, ImagesOfOtherSizes) {
             "image.max_height)");
   EXPECT_EQ(pair_error("--set image.width=32"),
             "image.width = 32, but left.png has 64 px; 0 takes it from the images");
+  // Refused by its header: there is nothing more in the file.
+  std::string bytes = program_.read("left.png");
+  bytes[18] = bytes[22] = 78;
+  bytes[19] = bytes[23] = 32;
+  text("huge.png", bytes);
+  EXPECT_EQ(error("--left huge.png --right huge.png"),
+            "image huge.png is 20000x20000, larger than the largest size 1856x1856");
+  EXPECT_EQ(pair_error("--ground-truth huge.png"),
+            "huge.png: the ground truth is 20000x20000, the images are 64x48");
+}
+
+TEST_F(BadInput, BitsOfImages) {
+  EXPECT_EQ(pair_error("--image-bits 7"), "--image-bits is 7, allowed is 8 to 16");
+  EXPECT_EQ(pair_error("--image-bits 17"), "--image-bits is 17, allowed is 8 to 16");
+  EXPECT_EQ(error("--image-bits 12"), "--image-bits is for 16-bit images, but none are given");
+  image("bright.png", cv::Mat(48, 64, CV_16UC1, cv::Scalar(5000)));
+  EXPECT_EQ(error("--left bright.png --right bright.png --image-bits 12"),
+            "image bright.png holds the value 5000, beyond the 12 bits of --image-bits (at most 4095)");
 }
 
 TEST_F(BadInput, Configuration) {
@@ -180,19 +198,39 @@ TEST_F(BadInput, TimingOnlyHasNoImages) {
 TEST_F(BadInput, GroundTruth) {
   image("other.png", cv::Mat(48, 32, CV_16UC1, cv::Scalar(256)));
   image("truth.png", cv::Mat(48, 64, CV_16UC1, cv::Scalar(256)));
-  image("bytes.png", cv::Mat(48, 64, CV_8UC1, cv::Scalar(5)));
+  cv::Mat colour = noise(64, 48, CV_8UC3);
+  image("colour.png", colour);
+  image("truth.tiff", cv::Mat(48, 64, CV_32FC1, cv::Scalar(5)));
   image("mask.png", cv::Mat(48, 32, CV_8UC1, cv::Scalar(255)));
   EXPECT_NE(pair_error("--ground-truth none.png").find("none.png"), std::string::npos);
   EXPECT_NE(pair_error("--ground-truth other.png").find("32x48"), std::string::npos);
-  EXPECT_NE(pair_error("--ground-truth bytes.png").find("16"), std::string::npos);
+  EXPECT_NE(pair_error("--ground-truth colour.png").find("3 channels"), std::string::npos);
+  EXPECT_EQ(pair_error("--ground-truth truth.png --ground-truth-scale 0"),
+            "--ground-truth-scale is 0, allowed is a number above 0");
+  EXPECT_EQ(pair_error("--ground-truth-scale 4"), "--ground-truth-scale needs --ground-truth");
+  // A damaged header.
+  for (const auto& [name, at] : {std::pair("truth.png", 24), {"mask.png", 24}}) {
+    std::string bytes = program_.read(name);
+    bytes[static_cast<std::size_t>(at)] = 77;
+    text("damaged_" + std::string(name), bytes);
+  }
+  EXPECT_EQ(
+      pair_error("--ground-truth damaged_truth.png").rfind("cannot read ground truth damaged_truth.png: ", 0),
+      0U);
+  text("damaged_truth.tiff", program_.read("truth.tiff").substr(0, 2000));
+  EXPECT_EQ(pair_error("--ground-truth damaged_truth.tiff")
+                .rfind("cannot read ground truth damaged_truth.tiff: ", 0),
+            0U);
+  EXPECT_EQ(pair_error("--ground-truth truth.png --mask damaged_mask.png").rfind("damaged_mask.png: ", 0),
+            0U);
   EXPECT_NE(pair_error("--ground-truth truth.png --mask mask.png").find("mask.png"), std::string::npos);
   EXPECT_EQ(pair_error("--mask mask.png"), "--mask needs --ground-truth");
   image("unknown.png", cv::Mat(48, 64, CV_16UC1, cv::Scalar(0)));
   image("black.png", cv::Mat(48, 64, CV_8UC1, cv::Scalar(0)));
   EXPECT_EQ(pair_error("--ground-truth unknown.png"),
-            "unknown.png: no pixel to score; every disparity is 0 (unknown)");
+            "unknown.png: no pixel to score; every disparity is unknown");
   EXPECT_EQ(pair_error("--ground-truth truth.png --mask black.png"),
-            "truth.png: no pixel to score; every disparity is 0 (unknown) or masked by black.png");
+            "truth.png: no pixel to score; every disparity is unknown or masked by black.png");
   text("twice.txt", "left.png right.png\nleft.png right.png\n");
   EXPECT_EQ(error("--input twice.txt --ground-truth truth.png"),
             "--ground-truth is for one pair, but the input has 2 frames; add --frames 1");

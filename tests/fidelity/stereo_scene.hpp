@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "platform/images/image_codecs.hpp"
-#include "platform/results/ground_truth.hpp"
+#include "platform/results/truth_file.hpp"
 #include "tests/paths.hpp"
 
 namespace parallax::test {
@@ -35,8 +35,8 @@ inline std::optional<StereoScene> shared_scene(const std::string& name, int disp
   scene.disparities = disparities;
   scene.left = read_image(folder + "left.png", cv::IMREAD_GRAYSCALE);
   scene.right = read_image(folder + "right.png", cv::IMREAD_GRAYSCALE);
-  scene.truth =
-      read_ground_truth(folder + "disp_gt.png", folder + "mask_nocc.png", scene.left.cols, scene.left.rows);
+  scene.truth = read_ground_truth({folder + "disp_gt.png", folder + "mask_nocc.png", std::nullopt},
+                                  scene.left.cols, scene.left.rows, {});
   return scene;
 }
 
@@ -50,7 +50,7 @@ inline std::vector<std::uint8_t> visible_in_both(const GroundTruth& truth) {
     const auto for_each_known = [&](const auto& visit) {
       for (int x = 0; x < truth.width; ++x) {
         const std::size_t i = begin + static_cast<std::size_t>(x);
-        const double d = truth.disparity[i] / 256.0;
+        const double d = truth.disparity[i];
         const auto u = static_cast<int>(std::lround(x - d));
         if (truth.disparity[i] != 0 && u >= 0) visit(i, static_cast<std::size_t>(u), d);
       }
@@ -77,11 +77,11 @@ inline std::optional<StereoScene> aloe_scene() {
   const cv::Size size(left.cols / kReduction, left.rows / kReduction);
   cv::resize(left, scene.left, size, 0, 0, cv::INTER_AREA);
   cv::resize(right, scene.right, size, 0, 0, cv::INTER_AREA);
-  scene.truth = {size.width, size.height, {}, {}};
+  scene.truth = {size.width, size.height, {}, {}, 1};
   for (int y = 0; y < size.height; ++y) {
     for (int x = 0; x < size.width; ++x) {
       const int d = truth.at<std::uint8_t>(kReduction * y + kReduction / 2, kReduction * x + kReduction / 2);
-      scene.truth.disparity.push_back(static_cast<std::uint16_t>(d * 256 / kReduction));
+      scene.truth.disparity.push_back(static_cast<float>(d) / kReduction);
     }
   }
   scene.truth.mask = visible_in_both(scene.truth);

@@ -6,11 +6,12 @@
 #include <fstream>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
+#include <optional>
 
 #include "error_line.hpp"
 #include "platform/images/image_codecs.hpp"
+#include "platform/images/stderr_capture.hpp"
 #include "platform/input/image_padding.hpp"
-#include "platform/input/stderr_capture.hpp"
 #include "platform/results/output_file.hpp"
 #include "platform/scene/scene_hash.hpp"
 #include "temporary_folder.hpp"
@@ -172,7 +173,7 @@ TEST(ImageInput, TooLarge) {
   EXPECT_EQ(load_error(folder),
             "image " + (folder / "left.png") + " is 1857x4, larger than the largest size 1856x1856");
   EXPECT_EQ(error_line<UserError>([&] {
-              ImageInput({{folder / "left.png", folder / "right.png"}}, {1857, 4}, {});
+              ImageInput({{folder / "left.png", folder / "right.png"}}, {{1857, 4}, {}, false}, {});
             }),
             "no error");
 }
@@ -200,48 +201,102 @@ TEST(ImageInput, ColourBecomesMonoAndIsSaidOnce) {
   }
 }
 
-TEST(ImageInput, TwelveBitsInSixteen) {
-  const TemporaryFolder folder;
-  const cv::Mat left = random_image(20, 10, CV_16UC1, 4095, 1),
-                right = random_image(20, 10, CV_16UC1, 3000, 2);
-  save(folder / "l.png", left);
-  save(folder / "r.png", right);
-  save(folder / "bright.png", random_image(20, 10, CV_16UC1, 5000));
+/// The images of a sequence of one image as left and right, as 8 bits, and what was said.
+struct Taken {
+  std::vector<cv::Mat> frames;
   std::vector<std::string> notices;
-  ImageInput input({{folder / "l.png", folder / "r.png"}, {folder / "bright.png", folder / "r.png"}}, {},
-                   [&](const std::string& n) { notices.push_back(n); });
-  const StereoImages images = input.load(0);
-  for (int y = 0; y < 10; ++y) {
-    for (int x = 0; x < 20; ++x) {
-      ASSERT_EQ(images.left.at<std::uint8_t>(y, x), left.at<std::uint16_t>(y, x) / 16);
-      ASSERT_EQ(images.right.at<std::uint8_t>(y, x), right.at<std::uint16_t>(y, x) / 16);
-    }
+};
+
+Taken take(const TemporaryFolder& folder, const std::vector<cv::Mat>& images, std::optional<int> bits = {}) {
+  std::vector<ImagePair> pairs;
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    const fs::path path = folder / (std::to_string(i) + ".png");
+    save(path, images[i]);
+    pairs.push_back({path, path});
   }
-  EXPECT_EQ(notices, (std::vector<std::string>{
-                         "16-bit images: the largest value of the first pair is 4095, so they are "
-                         "taken as 12-bit and the lower 4 bits are dropped"}));
-  const std::string line = error_line<UserError>([&] { input.load(1); });
-  EXPECT_EQ(line.rfind("image " + (folder / "bright.png") + " holds the value ", 0), 0u) << line;
-  EXPECT_NE(line.find(", but the sequence began with 12-bit values (at most 4095)"), std::string::npos)
-      << line;
+  Taken taken;
+  ImageInput input(pairs, {{}, bits, false}, [&](const std::string& n) { taken.notices.push_back(n); });
+  for (std::size_t i = 0; i < images.size(); ++i) taken.frames.push_back(input.load(i).left);
+  return taken;
 }
 
-TEST(ImageInput, FullSixteenBits) {
+void expect_divided(const cv::Mat& found, const cv::Mat& image, int divisor) {
+  for (int y = 0; y < image.rows; ++y) {
+    for (int x = 0; x < image.cols; ++x) {
+      ASSERT_EQ(found.at<std::uint8_t>(y, x), image.at<std::uint16_t>(y, x) / divisor) << x << ',' << y;
+    }
+  }
+}
+
+TEST(ImageInput, SixteenBitsHoldAsManyAsTheLargestValueAsksFor) {
+  struct Case {
+    int largest, divisor;
+    const char* taken;
+  };
+  const Case cases[] = {{255, 1, "8-bit as they are"},
+                        {256, 4, "10-bit and the lower 2 bits are dropped"},
+                        {1023, 4, "10-bit and the lower 2 bits are dropped"},
+                        {4095, 16, "12-bit and the lower 4 bits are dropped"},
+                        {4096, 64, "14-bit and the lower 6 bits are dropped"},
+                        {16384, 256, "16-bit and the lower 8 bits are dropped"},
+                        {65535, 256, "16-bit and the lower 8 bits are dropped"}};
+  for (const Case& c : cases) {
+    const TemporaryFolder folder;
+    const cv::Mat image = random_image(20, 10, CV_16UC1, c.largest);
+    const Taken taken = take(folder, {image});
+    expect_divided(taken.frames.at(0), image, c.divisor);
+    EXPECT_EQ(taken.notices, (std::vector<std::string>{"16-bit images: their values reach " +
+                                                       std::to_string(c.largest) + ", so they are taken as " +
+                                                       c.taken + "; --image-bits states another"}));
+  }
+}
+
+TEST(ImageInput, ASequenceThatBeginsDarkIsTakenAsAWhole) {
+  const TemporaryFolder folder;
+  const cv::Mat dark = random_image(20, 10, CV_16UC1, 200), bright = random_image(20, 10, CV_16UC1, 60000);
+  const Taken taken = take(folder, {dark, dark, bright});
+  expect_divided(taken.frames.at(0), dark, 256);
+  expect_divided(taken.frames.at(2), bright, 256);
+  EXPECT_EQ(taken.notices.size(), 1u);
+}
+
+TEST(ImageInput, ASequenceThatBeginsWithEightBits) {
+  const TemporaryFolder folder;
+  const cv::Mat first = grey(20, 10), later = random_image(20, 10, CV_16UC1, 4000);
+  const Taken taken = take(folder, {first, later});
+  EXPECT_EQ(cv::norm(taken.frames.at(0), first, cv::NORM_INF), 0);
+  expect_divided(taken.frames.at(1), later, 16);
+}
+
+TEST(ImageInput, AFrameThatCannotBeReadStopsNoneBeforeIt) {
+  const TemporaryFolder folder;
+  save(folder / "a.png", random_image(20, 10, CV_16UC1, 4000));
+  save_bytes(folder / "b.png", "no image");
+  const fs::path a = folder / "a.png", b = folder / "b.png";
+  ImageInput input({{a, a}, {b, b}}, {}, {});
+  EXPECT_EQ(input.load(0).left.cols, 20);
+  EXPECT_NE(error_line<UserError>([&] { input.load(1); }).find("cannot read image"), std::string::npos);
+}
+
+TEST(ImageInput, StatedBits) {
+  const TemporaryFolder folder;
+  const cv::Mat image = random_image(20, 10, CV_16UC1, 900);
+  const Taken taken = take(folder, {image, image}, 12);
+  expect_divided(taken.frames.at(0), image, 16);
+  EXPECT_TRUE(taken.notices.empty());
+  EXPECT_EQ(error_line<UserError>([&] { take(folder, {cv::Mat(8, 8, CV_16UC1, cv::Scalar(1024))}, 10); }),
+            "image " + (folder / "0.png") +
+                " holds the value 1024, beyond the 10 bits of --image-bits (at most 1023)");
+}
+
+TEST(ImageInput, SixteenBitsBesideEight) {
   const TemporaryFolder folder;
   const cv::Mat left = random_image(20, 10, CV_16UC1, 65535), right = grey(20, 10);
   save(folder / "l.png", left);
   save(folder / "r.png", right);
-  std::vector<std::string> notices;
-  ImageInput input({{folder / "l.png", folder / "r.png"}}, {},
-                   [&](const std::string& n) { notices.push_back(n); });
-  const StereoImages images = input.load(0);
-  for (int x = 0; x < 20; ++x) {
-    EXPECT_EQ(images.left.at<std::uint8_t>(3, x), left.at<std::uint16_t>(3, x) / 256);
-  }
-  EXPECT_EQ(cv::norm(images.right, right, cv::NORM_INF), 0);
-  EXPECT_EQ(notices, (std::vector<std::string>{
-                         "16-bit images: the largest value of the first pair is 65535, so they are "
-                         "taken as 16-bit and the lower 8 bits are dropped"}));
+  ImageInput input({{folder / "l.png", folder / "r.png"}}, {}, {});
+  expect_divided(input.load(0).left, left, 256);
+  EXPECT_EQ(cv::norm(input.load(0).right, right, cv::NORM_INF), 0);
 }
 
 TEST(ImagePairs, NeitherFolderNorFile) {

@@ -164,7 +164,10 @@ TEST_F(MapCommand, BadRawMapsAreNamed) {
             "raw maps: 2 files; one with four matrices, or four images (left x, left y, right x, right y) "
             "expected");
   const std::string bad = write("x.tiff", "hello");
-  EXPECT_EQ(message([&] { read_raw_maps({bad, bad, bad, bad}); }), bad + ": not an image that OpenCV reads");
+  EXPECT_EQ(message([&] {
+              read_raw_maps({bad, bad, bad, bad});
+            }),
+            "cannot read map " + bad + ": it is damaged, or not a PNG, JPEG, TIFF, BMP, PNM or WebP file");
   write_file(path("gray.png"), encode_image(".png", cv::Mat(2, 2, CV_8UC1, cv::Scalar(1))));
   EXPECT_EQ(message([&] {
               read_raw_maps({path("gray.png"), bad, bad, bad});

@@ -138,8 +138,8 @@ TEST(ErrorColors, ErrorsInvalidAndNotScored) {
   //                              right, 1 px less, 2.5 px more, 40 px more, invalid, unknown, both, masked
   const std::vector<Disparity> map{found(320), found(304), found(360), found(960),
                                    none,       found(320), none,       found(320)};
-  const std::uint16_t t = 20 * 256;
-  const GroundTruth truth{8, 1, {t, t, t, t, t, 0, 0, t}, {255, 255, 255, 255, 255, 255, 255, 0}};
+  const float t = 20;
+  const GroundTruth truth{8, 1, {t, t, t, t, t, 0, 0, t}, {255, 255, 255, 255, 255, 255, 255, 0}, 1};
   const cv::Mat image = error_colors({map, 8, 1}, truth);
   ASSERT_EQ(image.size(), cv::Size(8, 1));
   const auto pixel = [&](int x) { return image.at<cv::Vec3b>(0, x); };

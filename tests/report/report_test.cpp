@@ -182,6 +182,27 @@ TEST_F(Report, BadInputIsOneLine) {
   EXPECT_FALSE(std::filesystem::exists(program_ / "out/report.html"));
 }
 
+TEST_F(Report, AnImageOfOneRow) {
+  run("--report --size 1925x1 --set image.max_width=4096 --set tiles.largest_number=4 -d 32");
+  EXPECT_NE(page().find("data:image/png"), std::string::npos);
+}
+
+TEST_F(Report, ADamagedPictureIsNotLeftOutInSilence) {
+  run("--size 64x48 -d 32");
+  const std::string picture = program_.read("out/causes.png");
+  write("out/causes.png", picture.substr(0, 30));
+  EXPECT_EQ(error("report out"),
+            "parallax: error: cannot read result out/causes.png: it is damaged, or not a PNG, JPEG, TIFF, "
+            "BMP, PNM or "
+            "WebP file\n");
+  write("out/causes.png", picture);
+  write("out/strip.gif", "GIF89a and so on");
+  EXPECT_EQ(error("report out"),
+            "parallax: error: cannot read result out/strip.gif: it is damaged; run parallax again\n");
+  std::filesystem::remove(program_ / "out/strip.gif");
+  EXPECT_EQ(program_("report -q out").code, 0);
+}
+
 // Every path of a tree.
 void gather(const Json& tree, const std::string& path, std::vector<std::string>& paths) {
   if (!path.empty()) paths.push_back(path);

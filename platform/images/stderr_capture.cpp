@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "platform/input/stderr_capture.hpp"
+#include "platform/images/stderr_capture.hpp"
 
 #include <unistd.h>
 

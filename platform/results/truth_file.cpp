@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "platform/results/truth_file.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <opencv2/core.hpp>
+
+#include "platform/images/image_file.hpp"
+#include "platform/images/npy_file.hpp"
+#include "platform/images/pfm_file.hpp"
+#include "tlm/error.hpp"
+
+namespace parallax {
+namespace {
+
+constexpr const char* kTruthFile = "ground truth";
+constexpr const char* kMaskFile = "ground-truth mask";
+
+// What a file holds, one channel of any depth.
+struct TruthValues {
+  cv::Mat image;
+  double unused_scale = 1;  // of the header of a float map
+};
+
+SizeCheck same_size(const std::string& path, const std::string& what, int width, int height) {
+  return [=](const cv::Size& size) {
+    if (size == cv::Size(width, height)) return;
+    throw UserError(
+        fmt::format("{}: the {} is {}, the images are {}x{}", path, what, size_text(size), width, height));
+  };
+}
+
+std::string format_text(const cv::Mat& image) {
+  const char* const kind = image.depth() == CV_32F || image.depth() == CV_64F ? "floating point" : "bit";
+  return fmt::format("{} {} with {} channel{}", 8 * image.elemSize1(), kind, image.channels(),
+                     image.channels() == 1 ? "" : "s");
+}
+
+// The one channel of a grey image, also of one that was stored as colour.
+cv::Mat grey(const cv::Mat& image) {
+  if (image.channels() == 1) return image;
+  std::vector<cv::Mat> channels;
+  cv::split(image, channels);
+  const auto equal = [&](std::size_t other) {
+    return cv::norm(channels[0], channels[other], cv::NORM_INF) == 0;
+  };
+  const bool is_grey = channels.size() == 2 || (equal(1) && equal(2));  // the last of 2 or 4 is transparency
+  return is_grey ? channels[0] : cv::Mat();
+}
+
+std::vector<std::uint8_t> bytes_of(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+std::vector<std::uint8_t> first_bytes(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::vector<std::uint8_t> bytes(8);
+  file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  return bytes;
+}
+
+TruthValues read_truth_values(const std::string& path, const SizeCheck& check) {
+  require_image_file(path, kTruthFile);
+  const std::vector<std::uint8_t> head = first_bytes(path);
+  if (is_pfm(head)) {
+    const PfmImage map = read_pfm(bytes_of(path), path, check);
+    return {map.values, map.scale};
+  }
+  if (is_npy(head)) return {read_npy(bytes_of(path), path, check)};
+  if (head[0] == 'P' && head[1] == 'K') {
+    throw UserError(fmt::format("{}: an archive (.npz); the {} must be one array, as numpy.save writes it",
+                                path, kTruthFile));
+  }
+  const cv::Mat image = read_image_file(path, kTruthFile, check);
+  const cv::Mat values = grey(image);
+  const int depth = image.depth();
+  if (values.empty() || (depth != CV_8U && depth != CV_16U && depth != CV_32F && depth != CV_64F)) {
+    throw UserError(fmt::format(
+        "{}: the {} is {}, it must have 1 channel of 8 or 16 bits or of floating point (disparity * scale)",
+        path, kTruthFile, format_text(image)));
+  }
+  return {values};
+}
+
+cv::Mat read_mask(const std::string& path, const SizeCheck& check) {
+  const cv::Mat image = read_image_file(path, kMaskFile, check);
+  const cv::Mat mask = grey(image);
+  if (mask.type() != CV_8UC1) {
+    throw UserError(fmt::format("{}: the {} is {}, it must be 8 bit with 1 channel (255 = score)", path,
+                                kMaskFile, format_text(image)));
+  }
+  return mask;
+}
+
+double scale_of(const TruthFiles& files, const TruthValues& values,
+                const std::function<void(const std::string&)>& notice) {
+  if (values.unused_scale != 1 && notice) {
+    notice(
+        fmt::format("ground truth {}: the size of the scale in its header, {:g}, is not applied: data sets "
+                    "write one that is for viewing",
+                    files.truth, values.unused_scale));
+  }
+  if (files.scale) return *files.scale;
+  const int depth = values.image.depth();
+  constexpr double kKitti = 256;
+  const double assumed = depth == CV_16U ? kKitti : 1;
+  const char* const kind = depth == CV_16U  ? "16-bit integers"
+                           : depth == CV_8U ? "8-bit integers"
+                                            : "signed or floating-point values";
+  if (notice) {
+    notice(fmt::format("ground truth {}: {}, taken as disparity * {:g}; --ground-truth-scale states another",
+                       files.truth, depth == CV_32F ? "floating-point values" : kind, assumed));
+  }
+  return assumed;
+}
+
+std::vector<float> disparities(const cv::Mat& values, double scale) {
+  cv::Mat doubles;
+  values.convertTo(doubles, CV_64F);
+  std::vector<float> result;
+  result.reserve(doubles.total());
+  for (auto it = doubles.begin<double>(); it != doubles.end<double>(); ++it) {
+    const auto disparity = static_cast<float>(*it / scale);
+    result.push_back(std::isfinite(disparity) && disparity > 0 ? disparity : 0);
+  }
+  return result;
+}
+
+}  // namespace
+
+GroundTruth read_ground_truth(const TruthFiles& files, int width, int height,
+                              const std::function<void(const std::string&)>& notice) {
+  if (files.scale && !(*files.scale > 0 && std::isfinite(*files.scale)))
+    throw UserError(fmt::format("--ground-truth-scale is {}, allowed is a number above 0", *files.scale));
+  const TruthValues values =
+      read_truth_values(files.truth, same_size(files.truth, kTruthFile, width, height));
+  const double scale = scale_of(files, values, notice);
+  GroundTruth result{width, height, disparities(values.image, scale), {}, scale};
+  if (!files.mask.empty()) {
+    const cv::Mat mask = read_mask(files.mask, same_size(files.mask, kMaskFile, width, height));
+    result.mask.assign(mask.begin<std::uint8_t>(), mask.end<std::uint8_t>());
+  }
+  bool any = false;
+  for (std::size_t i = 0; i < result.disparity.size() && !any; ++i) any = result.scored(i);
+  if (!any) {
+    throw UserError(fmt::format("{}: no pixel to score; every disparity is unknown{}", files.truth,
+                                files.mask.empty() ? "" : " or masked by " + files.mask));
+  }
+  return result;
+}
+
+}  // namespace parallax
