@@ -25,10 +25,10 @@ class Replay {
   ReplayResult run(const std::vector<TraceRequest>& trace) {
     result_.saturating =
         std::all_of(trace.begin(), trace.end(), [](const TraceRequest& r) { return r.time_ns == 0; });
+    if (!trace.empty()) result_.first_clock = edge(trace.front().time_ns);
     for (const TraceRequest& request : trace) {
       const std::uint64_t end = request.address + request.bytes;
-      // A time that is an edge must not become the next one by a rounding error.
-      next_ = std::max(next_, static_cast<Clock>(std::ceil(request.time_ns / period_ns_ - 1e-6)));
+      next_ = std::max(next_, edge(request.time_ns));
       for (std::uint64_t at = request.address; at < end; at = (at / kPart + 1) * kPart) {
         enter(request, at, std::min(end, (at / kPart + 1) * kPart));
       }
@@ -40,6 +40,11 @@ class Replay {
   }
 
  private:
+  // A time that is an edge must not become the next one by a rounding error.
+  Clock edge(double time_ns) const {
+    return std::max(Clock{0}, static_cast<Clock>(std::ceil(time_ns / period_ns_ - 1e-6)));
+  }
+
   struct Read {
     double begin_ns = 0;          // from which its latency counts
     Clock end = 0;                // of the last data beat so far

@@ -17,11 +17,12 @@ struct TraceRequest {
 };
 
 struct ReplayResult {
-  std::uint64_t reads = 0;   ///< of 64 bytes or the part of one
-  std::uint64_t writes = 0;  ///< likewise
-  std::uint64_t bytes = 0;   ///< on the data bus: whole bursts
-  std::int64_t clocks = 0;   ///< until the last data beat is over
-  double latency_sum = 0;    ///< ns, of all reads
+  std::uint64_t reads = 0;       ///< of 64 bytes or the part of one
+  std::uint64_t writes = 0;      ///< likewise
+  std::uint64_t bytes = 0;       ///< on the data bus: whole bursts
+  std::int64_t first_clock = 0;  ///< at which the first request may enter
+  std::int64_t clocks = 0;       ///< until the last data beat is over
+  double latency_sum = 0;        ///< ns, of all reads
   double latency_largest = 0;
   bool saturating =
       false;  ///< all requests may come at once: latencies count from acceptance, else from time_ns

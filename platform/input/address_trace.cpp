@@ -6,20 +6,19 @@
 
 #include <array>
 #include <cerrno>
-#include <cmath>
-#include <cstdlib>
 #include <cstring>
 #include <memory>
 #include <sstream>
 
+#include "platform/input/input_file.hpp"
+#include "platform/input/trace_formats.hpp"
 #include "tlm/error.hpp"
 
 namespace parallax {
 namespace {
 
-constexpr const char* kHeader = "time_ns,rw,addr,bytes";
-constexpr std::uint64_t kMostBytes = 1 << 20;
-constexpr double kLatest = 1e12;  // ns: a refresh is a step, and this many take seconds
+constexpr std::uint64_t kUsualBytes = 64;  // a line of a cache
+constexpr double kLatestTime = 1e12;       // ns: a refresh is a step, and this many take seconds
 
 std::string unpacked_file(const std::string& path) {
   const std::unique_ptr<gzFile_s, int (*)(gzFile)> file(gzopen(path.c_str(), "rb"), gzclose);
@@ -45,70 +44,91 @@ std::string unpacked_file(const std::string& path) {
   }
 }
 
-// One line; what is wrong with it, if something is.
-class Line {
- public:
-  explicit Line(const std::string& text) : text_(text) {}
+// A line without comment, carriage return and blanks at its ends.
+std::string content_of(std::string line) {
+  const std::size_t comment = line.find('#');
+  if (comment != std::string::npos) line.erase(comment);
+  constexpr const char* kBlanks = " \t\r";
+  const std::size_t begin = line.find_first_not_of(kBlanks);
+  return begin == std::string::npos ? "" : line.substr(begin, line.find_last_not_of(kBlanks) - begin + 1);
+}
 
-  std::string read(TraceRequest& request) {
-    std::array<std::string, 4> fields;
-    std::istringstream in(text_);
-    for (std::string& field : fields) std::getline(in, field, ',');
-    if (fields[3].empty() || in.rdbuf()->in_avail() > 0 || text_.back() == ',') {
-      return fmt::format("expected four fields, {}", kHeader);
-    }
-    char* end = nullptr;
-    request.time_ns = std::strtod(fields[0].c_str(), &end);
-    if (fields[0].empty() || *end != '\0' || !(request.time_ns >= 0 && request.time_ns <= kLatest)) {
-      return fmt::format("time_ns is '{}', expected a number from 0 to {:.0f}", fields[0], kLatest);
-    }
-    if (fields[1] != "R" && fields[1] != "W" && fields[1] != "r" && fields[1] != "w") {
-      return fmt::format("rw is '{}', expected R or W", fields[1]);
-    }
-    request.write = fields[1] == "W" || fields[1] == "w";
-    if (!number(fields[2], request.address)) {
-      return fmt::format("addr is '{}', expected an address such as 0x1000, below 2^62", fields[2]);
-    }
-    if (!number(fields[3], request.bytes) || request.bytes == 0 || request.bytes > kMostBytes) {
-      return fmt::format("bytes is '{}', expected a number from 1 to {}", fields[3], kMostBytes);
-    }
-    return "";
-  }
-
- private:
-  static bool number(const std::string& text, std::uint64_t& value) {
-    if (text.empty() || text[0] < '0' || text[0] > '9') return false;
-    const bool hexadecimal = text.rfind("0x", 0) == 0;
-    char* end = nullptr;
-    errno = 0;
-    value = std::strtoull(text.c_str(), &end, hexadecimal ? 16 : 10);
-    return *end == '\0' && errno == 0 && value < 1ull << 62;
-  }
-
-  const std::string& text_;
+// How the requests of a format are taken.
+struct Taken {
+  double cycle_ns = 1;
+  std::uint64_t bytes = kUsualBytes;
 };
+
+Taken taken(const std::string& path, const TraceFormat& format, const TraceReading& reading,
+            const std::function<void(const std::string&)>& notice) {
+  if (reading.mhz && !format.has_cycles)
+    throw UserError(
+        fmt::format("--trace-mhz: {} counts no cycles, it is a trace like {}", path, format.form));
+  if (reading.bytes && format.has_bytes)
+    throw UserError(fmt::format("--request-bytes: each request of {} says how long it is", path));
+  Taken result;
+  result.bytes = reading.bytes.value_or(kUsualBytes);
+  if (format.has_cycles) result.cycle_ns = reading.mhz ? 1000 / *reading.mhz : reading.cycle_ns;
+  if (!format.has_bytes && notice) {
+    notice(fmt::format(
+        "{}: taken as a trace of {} ({}): {} bytes a request{}, {}", path, format.name, format.form,
+        result.bytes, format.may_have_bytes ? " that does not say" : "",
+        format.has_cycles
+            ? fmt::format("cycles of {:g} ns; --request-bytes and --trace-mhz state others", result.cycle_ns)
+            : std::string("all at once; --request-bytes states another")));
+  }
+  return result;
+}
+
+bool ends_with(const std::string& text, const std::string& end) {
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
 
 }  // namespace
 
-std::vector<TraceRequest> read_address_trace(const std::string& path) {
-  std::istringstream in(unpacked_file(path));
+std::vector<TraceRequest> read_address_trace(const std::string& path, const TraceReading& reading,
+                                             const std::function<void(const std::string&)>& notice) {
+  std::string text = unpacked_file(path);
+  if (text.rfind(kByteOrderMark, 0) == 0) text.erase(0, kByteOrderMark.size());
+  if (ends_with(path, ".rstl") || ends_with(path, ".rstl.gz")) {
+    throw UserError(fmt::format(
+        "{}: times that count from the end of the request before are not replayed; expected a .stl trace",
+        path));
+  }
+  std::istringstream in(text);
   std::vector<TraceRequest> trace;
-  std::string line;
+  const TraceFormat* format = nullptr;
+  Taken as;
+  std::string raw;
   double latest = 0;
-  for (int number = 1; std::getline(in, line); ++number) {
-    if (!line.empty() && line.back() == '\r') line.pop_back();
-    if (number == 1) {
-      if (line != kHeader) throw UserError(fmt::format("{}:1: expected the line '{}'", path, kHeader));
-      continue;
-    }
+  for (int number = 1; std::getline(in, raw); ++number) {
+    const auto fail = [&](const std::string& fault) {
+      return UserError(fmt::format("{}:{}: {}", path, number, fault));
+    };
+    const std::string line = content_of(raw);
     if (line.empty()) continue;
-    TraceRequest request;
-    std::string fault = Line(line).read(request);
-    if (fault.empty() && request.time_ns < latest) {
-      fault = fmt::format("time_ns is {}, before {} of an earlier line", request.time_ns, latest);
+    if (format == nullptr) {
+      try {
+        format = &trace_format_of(line);
+      } catch (const UserError& error) {
+        throw fail(error.what());
+      }
+      as = taken(path, *format, reading, notice);
+      if (is_trace_header(line)) continue;
     }
-    if (!fault.empty()) throw UserError(fmt::format("{}:{}: {}", path, number, fault));
-    latest = request.time_ns;
+    TraceRequest request;
+    request.bytes = as.bytes;
+    const std::string fault = format->read(line, request);
+    if (!fault.empty()) throw fail(fault);
+    const double time = request.time_ns;
+    if (format->has_cycles) request.time_ns *= as.cycle_ns;
+    if (request.time_ns > kLatestTime)
+      throw fail(fmt::format("the time is {:g} ns, expected at most {:g} ns", request.time_ns, kLatestTime));
+    if (time < latest) {
+      throw fail(fmt::format("{} is {}, before {} of an earlier line",
+                             format->has_cycles ? "the cycle" : "time_ns", time, latest));
+    }
+    latest = time;
     trace.push_back(request);
   }
   if (trace.empty()) throw UserError(fmt::format("{}: holds no request", path));

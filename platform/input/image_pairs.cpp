@@ -6,17 +6,15 @@
 #include <fstream>
 #include <iomanip>
 #include <sstream>
-#include <string_view>
 
 #include "platform/input/folder_pairs.hpp"
+#include "platform/input/input_file.hpp"
 #include "tlm/error.hpp"
 
 namespace parallax {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";  // some editors put it before UTF-8 text
 
 std::vector<ImagePair> pairs_of_list(const fs::path& list) {
   std::ifstream file(list);

@@ -93,8 +93,25 @@ TEST_F(MemoryCommand, SaysWhatReachesBeyondTheDevices) {
       "parallax: note: 1 of 2 requests reach beyond the devices' 1073741824 bytes and begin anew there\n");
 }
 
+TEST_F(MemoryCommand, TracesOfOtherPrograms) {
+  const std::string trace = write("0x0 READ 0\n0x40 READ 100\n", "t.trace");
+  const Outcome outcome = run({trace, "--config", "ddr3-1600-x64", "--json"});
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_EQ(outcome.err,
+            "parallax: note: " + trace +
+                ": taken as a trace of DRAMsim3 (0x1234 READ 10): 64 bytes a request, cycles of 1.25 ns; "
+                "--request-bytes and --trace-mhz state others\n");
+  EXPECT_EQ(nlohmann::json::parse(outcome.out)["bursts"]["value"], 2);
+  const Outcome stated =
+      run({trace, "--config", "ddr3-1600-x64", "--json", "--trace-mhz", "100", "--request-bytes", "256"});
+  EXPECT_EQ(nlohmann::json::parse(stated.out)["bursts"]["value"], 8);
+  // The second read begins at 1 us and takes four bursts, a row hit behind the first.
+  EXPECT_NEAR(nlohmann::json::parse(stated.out)["time"]["value"], 1.0, 0.1);
+  EXPECT_EQ(run({trace, "--config", "ddr3-1600-x64", "-q"}).err, "");
+}
+
 TEST_F(MemoryCommand, TracesThatAreNone) {
-  EXPECT_EQ(complaint("time,rw\n"), ":1: expected the line 'time_ns,rw,addr,bytes'");
+  EXPECT_EQ(complaint("time,rw\n").rfind(":1: 'time,rw' begins no trace that is known; ", 0), 0u);
   EXPECT_EQ(complaint(""), ": holds no request");
   const auto line = [&](const std::string& request) {
     return complaint("time_ns,rw,addr,bytes\n0,R,0,64\n" + request + "\n");
@@ -142,6 +159,10 @@ TEST_F(MemoryCommand, OptionsOutOfRange) {
             "parallax: error: --window is 0, allowed is 1 to 1000000\n");
   EXPECT_EQ(error({"--config", "ddr3-1066-x32", "--efficiency", "101"}),
             "parallax: error: --efficiency is 101, allowed is 1 to 100\n");
+  EXPECT_EQ(error({"--config", "ddr3-1066-x32", "--request-bytes", "0"}),
+            "parallax: error: --request-bytes is 0, allowed is 1 to 1048576\n");
+  EXPECT_EQ(error({"--config", "ddr3-1066-x32", "--trace-mhz", "0"}),
+            "parallax: error: --trace-mhz is 0, allowed is 0.001 to 1000000\n");
   EXPECT_EQ(error({"--config", "ddr3-1066-x32", "--mapping", "cbr"}),
             "parallax: error: --mapping is 'cbr', expected rbc, brc or rbcg\n");
   EXPECT_NE(error({"--config", "ddr3-1066-x23"}).find("the nearest is ddr3-1066-x32"), std::string::npos);
