@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <type_traits>
 
+#include "traces/json_text.hpp"
 #include "traces/trace_columns.hpp"
 
 namespace parallax {
@@ -67,7 +68,7 @@ void JsonTrace::begin(const TraceParts& parts) {
   const nlohmann::ordered_json head{{"time_unit", "ps"},    {"frames", parts.frames}, {"rows", parts.rows},
                                     {"tiles", parts.tiles}, {"stages", stages},       {"streams", streams},
                                     {"ports", ports},       {"columns", columns}};
-  std::string text = head.dump(1);
+  std::string text = json_text(head, 1);
   text.erase(text.rfind('\n'));
   out_.add(text);
   out_.add(std::string_view(",\n \"events\": ["));
@@ -99,7 +100,7 @@ void JsonTrace::end(Picoseconds time, const std::vector<EndlessWait>& waits) {
   out_.add(std::string_view("\n],\n \"end_ps\": "));
   out_.add(time.count());
   out_.add(std::string_view(",\n \"waits\": "));
-  out_.add(list.dump());
+  out_.add(json_text(list));
   out_.add(std::string_view("\n}\n"));
   out_.write();
 }

@@ -11,6 +11,7 @@
 #include "platform/report/comparison_page.hpp"
 #include "platform/report/run_comparison.hpp"
 #include "platform/results/output_file.hpp"
+#include "traces/json_text.hpp"
 
 namespace parallax {
 namespace {
@@ -41,7 +42,7 @@ void add_compare_runs_command(CLI::App& app, CommandContext& context) {
       const RunComparison comparison = compare(a, b);
       if (!options->html.empty()) write_file(options->html, comparison_page(comparison, a, b));
       if (options->json) {
-        context.out << to_json(comparison).dump(2) << '\n';
+        context.out << json_text(to_json(comparison), 2) << '\n';
       } else if (context.verbosity != Verbosity::kQuiet) {
         context.out << to_text(comparison, options->all);
       }

@@ -13,6 +13,7 @@
 #include "platform/config/config_writer.hpp"
 #include "platform/config/preset.hpp"
 #include "platform/registers/run_time_parameters.hpp"
+#include "traces/json_text.hpp"
 
 namespace parallax {
 namespace {
@@ -29,7 +30,7 @@ void print_presets(const ConfigOptions& options, std::ostream& out) {
   if (options.json) {
     auto tree = nlohmann::ordered_json::object();
     for (const PresetSummary& preset : presets) tree[preset.name] = preset.description;
-    out << tree.dump(2) << '\n';
+    out << json_text(tree, 2) << '\n';
     return;
   }
   std::size_t width = 0;
@@ -50,7 +51,7 @@ int run_config(const ConfigOptions& options, std::ostream& out) {
     if (!remark.empty()) key.documentation += " " + remark;
   }
   if (options.json) {
-    out << to_json(configuration, options.documented).dump(2) << '\n';
+    out << json_text(to_json(configuration, options.documented), 2) << '\n';
   } else {
     out << to_toml(configuration, options.documented);
   }

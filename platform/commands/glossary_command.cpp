@@ -7,6 +7,7 @@
 
 #include "platform/commands/command_context.hpp"
 #include "platform/results/glossary.hpp"
+#include "traces/json_text.hpp"
 
 namespace parallax {
 namespace {
@@ -27,7 +28,7 @@ void add_glossary_command(CLI::App& app, CommandContext& context) {
   command.callback([options, &context] {
     context.action = [options, &context] {
       context.out << (options->markdown ? glossary_as_markdown()
-                      : options->json   ? glossary_as_json().dump(2) + "\n"
+                      : options->json   ? json_text(glossary_as_json(), 2) + "\n"
                                         : glossary_as_text());
       return 0;
     };

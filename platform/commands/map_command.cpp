@@ -20,6 +20,7 @@
 #include "platform/input/map_storage.hpp"
 #include "platform/input/raw_map_file.hpp"
 #include "tlm/error.hpp"
+#include "traces/json_text.hpp"
 
 namespace parallax {
 
@@ -167,7 +168,7 @@ void add_info(CLI::App& command, CommandContext& context) {
   info_command->callback([options, &context] {
     context.action = [options, &context] {
       const MapInfo info = in_file(options->input, inspect);
-      context.out << (options->json ? nlohmann::json(info).dump(2) + "\n" : info.text(options->rows));
+      context.out << (options->json ? json_text(nlohmann::json(info), 2) + "\n" : info.text(options->rows));
       return 0;
     };
   });

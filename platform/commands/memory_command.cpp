@@ -18,6 +18,7 @@
 #include "platform/results/replay_metrics.hpp"
 #include "tlm/dram_replay.hpp"
 #include "tlm/error.hpp"
+#include "traces/json_text.hpp"
 #include "traces/metrics.hpp"
 
 namespace parallax {
@@ -90,7 +91,7 @@ int replay_trace(const MemoryOptions& options, CommandContext& context) {
   const ReplayResult result = replay(trace, timing, policy, mapping->second, options.window);
   const MetricGroup metrics = measure(result, timing);
   if (options.json) {
-    context.out << to_json(metrics).dump(2) << '\n';
+    context.out << json_text(to_json(metrics), 2) << '\n';
   } else if (context.verbosity != Verbosity::kQuiet) {
     context.out << text(metrics);
   }

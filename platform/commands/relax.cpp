@@ -13,6 +13,7 @@
 #include "platform/evaluation/relaxed_limits.hpp"
 #include "platform/results/output_folder.hpp"
 #include "platform/results/result_names.hpp"
+#include "traces/json_text.hpp"
 
 namespace parallax {
 namespace {
@@ -27,11 +28,11 @@ void report(const RelaxedLimits& limits, const RunOptions& options, CommandConte
   if (!options.out.empty()) {
     OutputFolder folder(options.out);
     folder.replace(is_result_name);
-    folder.write("relaxations.json", tree.dump(2) + "\n");
+    folder.write("relaxations.json", json_text(tree, 2) + "\n");
     folder.publish();
   }
   if (options.json) {
-    context.out << tree.dump(2) << '\n';
+    context.out << json_text(tree, 2) << '\n';
   } else if (context.verbosity != Verbosity::kQuiet) {
     context.out << to_text(limits);
   }

@@ -31,6 +31,7 @@
 #include "platform/results/run_metrics.hpp"
 #include "platform/tracing/run_profile.hpp"
 #include "platform/tracing/tracing.hpp"
+#include "traces/json_text.hpp"
 
 namespace parallax {
 namespace {
@@ -129,7 +130,7 @@ class Run {
       const nlohmann::ordered_json tree =
           results.write(measure_stuck(machine, deadlock, totals, images_.size().width, images_.size().height),
                         profile_.get(), writer);
-      if (options_.json) context_.out << tree.dump(2) << '\n';
+      if (options_.json) context_.out << json_text(tree, 2) << '\n';
       return kNotAsExpected;
     }
     MetricGroup metrics = measure(machine, totals, images_.size().width, images_.size().height);
@@ -148,7 +149,7 @@ class Run {
         machine, base, options_.report ? Thoroughness::kAll : Thoroughness::kUntilOneGains,
         [this](const std::vector<Relaxation>& relaxations) { return trials_->try_out(relaxations); });
     if (interrupted_()) return false;
-    if (options_.report) folder_->write("relaxations.json", to_json(verdict.limits).dump(2) + "\n");
+    if (options_.report) folder_->write("relaxations.json", json_text(to_json(verdict.limits), 2) + "\n");
     add_verdict(metrics, verdict);
     return true;
   }

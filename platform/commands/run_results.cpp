@@ -8,6 +8,7 @@
 #include "platform/evaluation/evaluation_result.hpp"
 #include "platform/report/report_file.hpp"
 #include "platform/results/run_summary.hpp"
+#include "traces/json_text.hpp"
 
 namespace parallax {
 
@@ -15,8 +16,8 @@ nlohmann::ordered_json RunResults::write(const MetricGroup& metrics, const RunPr
                                          RunFrames& frames) const {
   nlohmann::ordered_json tree = timing_json(metrics, to_json(configuration_, false));
   if (folder_ == nullptr) return tree;
-  if (profile != nullptr) folder_->write("profile.json", profile->to_json().dump() + "\n");
-  folder_->write("timing.json", tree.dump(2) + "\n");
+  if (profile != nullptr) folder_->write("profile.json", json_text(profile->to_json()) + "\n");
+  folder_->write("timing.json", json_text(tree, 2) + "\n");
   frames.publish_strip_with([this] { folder_->publish(); });
   if (options_.report) {
     folder_->write("report.html", report_of(folder_->path()));
@@ -27,7 +28,7 @@ nlohmann::ordered_json RunResults::write(const MetricGroup& metrics, const RunPr
 
 void RunResults::print(const MetricGroup& metrics, const nlohmann::ordered_json& tree) const {
   if (options_.json) {
-    context_.out << tree.dump(2) << '\n';
+    context_.out << json_text(tree, 2) << '\n';
     return;
   }
   if (context_.verbosity == Verbosity::kQuiet) return;

@@ -18,6 +18,7 @@
 #include "platform/results/progress.hpp"
 #include "platform/validation/sensitivity.hpp"
 #include "platform/validation/validation.hpp"
+#include "traces/json_text.hpp"
 
 namespace parallax {
 namespace {
@@ -72,11 +73,11 @@ int validate(const ValidateOptions& options, CommandContext& context) {
   }
   if (!options.out.empty()) {
     OutputFolder folder(options.out);
-    folder.write("validation.json", tree.dump(2) + "\n");
+    folder.write("validation.json", json_text(tree, 2) + "\n");
     folder.publish();
   }
   if (options.json) {
-    context.out << tree.dump(2) << '\n';
+    context.out << json_text(tree, 2) << '\n';
   } else if (context.verbosity != Verbosity::kQuiet) {
     context.out << text;
   }

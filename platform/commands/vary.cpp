@@ -20,6 +20,7 @@
 #include "platform/results/progress.hpp"
 #include "platform/results/result_names.hpp"
 #include "tlm/error.hpp"
+#include "traces/json_text.hpp"
 
 namespace parallax {
 namespace {
@@ -138,7 +139,7 @@ class Grid {
         });
     if (taken < points_.size())
       return interrupted_after(fmt::format("{} of {} points", taken, points_.size()), context_, interruption);
-    if (options_.json) context_.out << all_.dump(2) << '\n';
+    if (options_.json) context_.out << json_text(all_, 2) << '\n';
     return all_done_ ? 0 : kNotAsExpected;
   }
 
@@ -160,7 +161,7 @@ class Grid {
     if (prints_table()) context_.out << row(index, result) << std::flush;
     if (folder_ && result.done()) {
       folder_->write(fmt::format("point_{:04}/timing.json", index),
-                     timing_json(result.metrics, result.configuration).dump(2) + "\n");
+                     json_text(timing_json(result.metrics, result.configuration), 2) + "\n");
       folder_->publish();
     }
     if (options_.json) all_.push_back(entry(index, std::move(result)));

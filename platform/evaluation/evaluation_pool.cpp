@@ -23,8 +23,11 @@ constexpr unsigned kMostProcesses = 8;
 // So many variants may be done before one that takes long: what is kept until then is bounded.
 constexpr std::size_t kAheadOfEach = 16;
 
-std::string to_text(const Variant& variant) {
-  return Json{{"base", variant.base}, {"assignments", variant.assignments}}.dump();
+// Names of files, as they may be among the values, are any bytes, which JSON's text would not hold.
+std::string request_of(const Variant& variant) {
+  const std::vector<std::uint8_t> bytes =
+      Json::to_cbor(Json{{"base", variant.base}, {"assignments", variant.assignments}});
+  return {bytes.begin(), bytes.end()};
 }
 
 // In one of the processes; the simulation has one of its own.
@@ -32,7 +35,7 @@ std::string answer(const EvaluationPool::Preparation& prepare, const std::string
   EvaluationResult result;
   std::vector<std::string> notes;
   try {
-    const Json tree = Json::parse(request);
+    const Json tree = Json::from_cbor(request);
     const Variant variant{tree.at("assignments").get<std::vector<std::string>>(), tree.at("base")};
     const EvaluationCase one = prepare(variant, [&notes](const std::string& line) { notes.push_back(line); });
     result = evaluate(one.configuration.machine, one.input);
@@ -75,7 +78,7 @@ class Round {
       if (process.state() == State::kIdle && next_ < variants_.size() &&
           next_ < taken_ + kAheadOfEach * processes_.size()) {
         working_on_[i] = next_;
-        process.ask(to_text(variants_[next_++]));
+        process.ask(request_of(variants_[next_++]));
         if (process.state() == State::kDied) results_[working_on_[i]] = without_result(process.signal());
       }
       any = any || process.state() != State::kDied;

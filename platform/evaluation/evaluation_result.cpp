@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "platform/evaluation/evaluation_result.hpp"
+#include "traces/json_text.hpp"
 
 #include <fmt/format.h>
 
@@ -76,12 +77,11 @@ Json timing_json(const MetricGroup& metrics, Json configuration) {
 }
 
 std::string to_text(const EvaluationResult& result) {
-  return Json{{"status", name(result.status)},
-              {"message", result.message},
-              {"notes", result.notes},
-              {"metrics", to_json(result.metrics)},
-              {"configuration", result.configuration}}
-      .dump();
+  return json_text(Json{{"status", name(result.status)},
+                        {"message", result.message},
+                        {"notes", result.notes},
+                        {"metrics", to_json(result.metrics)},
+                        {"configuration", result.configuration}});
 }
 
 EvaluationResult evaluation_result(const std::string& text) try {

@@ -17,6 +17,7 @@
 #include "platform/validation/published_row.hpp"
 #include "platform/validation/validation.hpp"
 #include "tlm/error.hpp"
+#include "traces/json_text.hpp"
 #include "traces/report/report_page.hpp"
 
 namespace parallax {
@@ -93,7 +94,7 @@ bool is_of(const PublishedRow& row, const RunReport& report) {
     const Json::json_pointer pointer(path);
     if (!report.configuration.contains(pointer)) return false;
     const Json& value = report.configuration.at(pointer);
-    return (value.is_string() ? value.get<std::string>() : value.dump()) == assignment.substr(equals + 1);
+    return (value.is_string() ? value.get<std::string>() : json_text(value)) == assignment.substr(equals + 1);
   });
 }
 

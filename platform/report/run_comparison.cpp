@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "platform/report/run_comparison.hpp"
+#include "traces/json_text.hpp"
 
 #include <fmt/format.h>
 
@@ -81,7 +82,7 @@ std::string text_of(const Json& value, const std::string& unit) {
   if (value.is_null()) return "-";
   if (value.is_number_float())
     return fmt::format("{:.{}f}{}", value.get<double>(), unit == "%" ? 1 : 3, unit.empty() ? "" : " " + unit);
-  std::string text = value.is_string() ? value.get<std::string>() : value.dump();
+  std::string text = value.is_string() ? value.get<std::string>() : json_text(value);
   constexpr std::size_t kLongest = 40;
   if (text.size() > kLongest) text = text.substr(0, kLongest - 3) + "...";
   return unit.empty() ? text : text + " " + unit;

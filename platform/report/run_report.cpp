@@ -12,6 +12,7 @@
 
 #include "platform/results/result_schema.hpp"
 #include "tlm/error.hpp"
+#include "traces/json_text.hpp"
 
 namespace parallax {
 namespace {
@@ -40,7 +41,7 @@ void check_schema(const fs::path& file, const nlohmann::ordered_json& tree) {
   }
   if (const auto& version = tree.at(schema); version != kResultSchema) {
     throw UserError(fmt::format("{}: its schema/version is {}, this parallax reads {}; run it again",
-                                file.string(), version.dump(), kResultSchema));
+                                file.string(), json_text(version), kResultSchema));
   }
 }
 

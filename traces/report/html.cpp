@@ -8,11 +8,13 @@
 #include <cstdint>
 #include <utility>
 
+#include "traces/json_text.hpp"
+
 namespace parallax {
 
 std::string escaped(std::string_view text) {
   std::string html;
-  for (const char c : text) {
+  for (const char c : valid_utf8(text)) {
     switch (c) {
       case '&':
         html += "&amp;";

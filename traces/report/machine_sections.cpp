@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "traces/json_text.hpp"
 #include "traces/report/html.hpp"
 #include "traces/report/metric_text.hpp"
 #include "traces/report/sections.hpp"
@@ -172,7 +173,7 @@ void add_keys(std::string& text, const Json& group, const std::string& path) {
     if (entry.is_object()) {
       add_keys(text, entry, here);
     } else {
-      text += fmt::format("{} = {}\n", here, entry.dump());
+      text += fmt::format("{} = {}\n", here, json_text(entry));
     }
   }
 }

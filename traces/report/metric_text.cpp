@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "traces/json_text.hpp"
 #include "traces/report/html.hpp"
 
 namespace parallax {
@@ -19,7 +20,7 @@ std::string number_text(double value, int digits) {
 
 std::string metric_text(const Metric& metric) {
   if (std::holds_alternative<std::string>(metric.value)) return metric.word();
-  if (!metric.is_number()) return to_json(metric).at("value").dump();
+  if (!metric.is_number()) return json_text(to_json(metric).at("value"));
   const double x = metric.number();
   const int digits = x == std::floor(x) ? 0 : metric.unit == "%" ? 1 : std::abs(x) < 10 ? 3 : 1;
   return number_text(x, digits) + (metric.unit.empty() ? "" : " " + metric.unit);

@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include "traces/json_text.hpp"
 #include "traces/report/diagram.hpp"
 #include "traces/report/html.hpp"
 #include "traces/report/metric_text.hpp"
@@ -225,7 +226,7 @@ std::string stages_section(const ReportInput& input) {
     const nlohmann::ordered_json::json_pointer interval("/" + stage.name + "/interval");
     std::vector<std::string> cells = {
         escaped(stage.name), number_text(stage.number("cycles_per_frame"), 0),
-        input.configuration.contains(interval) ? input.configuration.at(interval).dump() : "1",
+        input.configuration.contains(interval) ? json_text(input.configuration.at(interval)) : "1",
         fmt::format("{:.1f} %", stage.number("utilisation")), bar + "</span>"};
     for (const ActivityTitle& activity : kActivities)
       cells.push_back(fmt::format("{:.1f} %", share(stage, activity.name)));

@@ -6,6 +6,7 @@
 #include <array>
 #include <string_view>
 
+#include "traces/json_text.hpp"
 #include "traces/report/assets.hpp"
 #include "traces/report/html.hpp"
 #include "traces/report/metric_text.hpp"
@@ -52,7 +53,7 @@ std::string html_page(const std::string& title, const std::string& body, const J
       "<script type=\"application/json\" "
       "id=\"data\">{}</script>\n<script>{}</script>\n<script>\n{}</script>\n"
       "</body>\n</html>\n",
-      escaped(title), kReportStyle, body, script_safe(data.dump()), kChartLibrary, kReportScript);
+      escaped(title), kReportStyle, body, script_safe(json_text(data)), kChartLibrary, kReportScript);
 }
 
 std::string report_page(const ReportInput& input) {
