@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a run says of an input that was taken another way than it was meant.
+#include <gtest/gtest.h>
+
+#include "tests/cli/program.hpp"
+
+namespace parallax::test {
+namespace input_hints_test {
+
+class InputHints : public testing::Test {
+ protected:
+  /// What a run of the built-in scene's files says on standard error.
+  std::string said(const std::string& arguments) const {
+    const Outcome outcome = program_("run --no-verdict " + arguments);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    return outcome.err;
+  }
+  Program program_;
+};
+
+TEST_F(InputHints, ExchangedSides) {
+  ASSERT_EQ(program_("scene --rectified --out in").code, 0);
+  const std::string hint =
+      "parallax: note: few pixels are valid, and left and right look exchanged: what the left image shows "
+      "lies "
+      "further right in the right image, where it must lie further left\n";
+  EXPECT_EQ(said("--left in/right.png --right in/left.png"), hint);
+  EXPECT_EQ(said("--left in/left.png --right in/right.png"), "");
+  EXPECT_EQ(said("--left in/left.png --right in/right.png --set texture.threshold=63"), "")
+      << "little is valid, but for another reason";
+  EXPECT_EQ(said("--left in/right.png --right in/left.png -q"), "");
+  ASSERT_EQ(program_("scene --out raw").code, 0);
+  EXPECT_NE(said("--left raw/right.png --right raw/left.png --calibration raw/calib.yml").find(hint),
+            std::string::npos);
+  EXPECT_EQ(said("--left raw/left.png --right raw/right.png --calibration raw/calib.yml"), "");
+}
+
+TEST_F(InputHints, AGroundTruthOfAnotherScale) {
+  ASSERT_EQ(program_("scene --rectified --size 320x240 --out in").code, 0);
+  const std::string pair = "--left in/left.png --right in/right.png --ground-truth in/disp_gt.png ";
+  EXPECT_EQ(said(pair),
+            "parallax: note: ground truth in/disp_gt.png: 16-bit integers, taken as disparity * 256; "
+            "--ground-truth-scale states another\n");
+  EXPECT_EQ(said(pair + "--ground-truth-scale 256"), "");
+  EXPECT_EQ(said(pair + "--ground-truth-scale 16"),
+            "parallax: note: the ground truth looks like one of another scale: nearly all of it is off by "
+            "one factor, "
+            "and --ground-truth-scale 256 instead of 16 would fit\n");
+  EXPECT_EQ(said("--size 320x240"), "") << "the built-in scene has no scale";
+}
+
+}  // namespace input_hints_test
+}  // namespace parallax::test
