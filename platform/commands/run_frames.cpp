@@ -4,10 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <opencv2/imgproc.hpp>
 #include <systemc>
 #include <utility>
 
 #include "platform/commands/exchanged_sides.hpp"
+#include "platform/input/raw_maps.hpp"
 #include "platform/results/truth_scale.hpp"
 
 namespace parallax {
@@ -33,18 +35,24 @@ void RunFrames::take(const FrameResult& result) {
   if (folder_ != nullptr) write(result, std::move(frame));
 }
 
-// Costs some hundredths of a second, which only a first frame with little to show is worth.
+// Costs some tenths of a second, which only a first frame with little to show is worth.
 void RunFrames::look_at_sides(std::int64_t frame) {
-  constexpr int kUnrectifiedRows = 16;  // px
   const StereoFrame images = images_.load(frame);
-  const auto mat = [&](const SensorImage& pixels) {
+  const auto raw = [&](const SensorImage& pixels) {
     cv::Mat image(images_.padded(), CV_8UC1);
     std::copy(pixels->begin(), pixels->end(), image.begin<Gray>());
-    return crop_image(image, images_.size());
+    return image;
   };
-  if (!sides_look_exchanged(mat(images.left), mat(images.right), largest_disparity_,
-                            images_.rectified() ? 0 : kUnrectifiedRows))
-    return;
+  const RawMaps maps = raw_maps(decode(images_.map()));
+  const auto pair = [&](const cv::Mat& left, const cv::Mat& right) {
+    StereoImages rectified;
+    cv::remap(left, rectified.left, maps.left_x, maps.left_y, cv::INTER_LINEAR);
+    cv::remap(right, rectified.right, maps.right_x, maps.right_y, cv::INTER_LINEAR);
+    return StereoImages{crop_image(rectified.left, images_.size()),
+                        crop_image(rectified.right, images_.size())};
+  };
+  const cv::Mat left = raw(images.left), right = raw(images.right);
+  if (!sides_look_exchanged(pair(left, right), pair(right, left), largest_disparity_)) return;
   remarks_.push_back(
       "few pixels are valid, and left and right look exchanged: what the left image shows lies further right "
       "in "

@@ -10,7 +10,6 @@ namespace parallax {
 
 RunImages::RunImages(const RunOptions& options, const MachineConfig& config, const NoticeSink& notice)
     : is_scene_(options.left.empty() && options.input.empty()),
-      rectified_(options.calibration.empty() && options.map.empty()),
       source_(open_source(options, config, notice)),
       granularity_(config.image.granularity()),
       size_(source_->width(), source_->height()),

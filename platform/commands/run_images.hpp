@@ -23,8 +23,6 @@ class RunImages {
 
   std::int64_t frames() const { return source_->frames(); }
   bool is_scene() const { return is_scene_; }
-  /// Whether they come rectified, without calibration or map.
-  bool rectified() const { return rectified_; }
   const cv::Size& size() const { return size_; }
   const cv::Size& padded() const { return padded_; }
   const EncodedMap& map() const { return rectification_.map; }
@@ -36,7 +34,6 @@ class RunImages {
 
  private:
   const bool is_scene_;
-  const bool rectified_;
   const std::unique_ptr<FrameSource> source_;
   const Granularity granularity_;
   const cv::Size size_;

@@ -2,7 +2,10 @@
 // What a run says of an input that was taken another way than it was meant.
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include "tests/cli/program.hpp"
+#include "tests/paths.hpp"
 
 namespace parallax::test {
 namespace input_hints_test {
@@ -33,6 +36,17 @@ TEST_F(InputHints, ExchangedSides) {
   EXPECT_NE(said("--left raw/right.png --right raw/left.png --calibration raw/calib.yml").find(hint),
             std::string::npos);
   EXPECT_EQ(said("--left raw/left.png --right raw/right.png --calibration raw/calib.yml"), "");
+}
+
+TEST_F(InputHints, ExchangedSidesOfRealCameras) {
+  for (const char* scene : {"euroc_v101", "kitti_seq2"}) {
+    const std::string folder = shared_data(scene);
+    if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no development data";
+    const std::string left = folder + "/left_00.png", right = folder + "/right_00.png";
+    const std::string rest = " --fit --calibration " + folder + "/calib.yml";
+    EXPECT_NE(said("--left " + right + " --right " + left + rest).find("look exchanged"), std::string::npos);
+    EXPECT_EQ(said("--left " + left + " --right " + right + rest).find("look exchanged"), std::string::npos);
+  }
 }
 
 TEST_F(InputHints, AGroundTruthOfAnotherScale) {
