@@ -41,8 +41,11 @@ std::vector<std::string> words(const std::string& name) {
 
 bool is_of_other_kind(const std::string& stem) {
   static const std::set<std::string> kinds{
-      "disp", "disps", "disparity", "disparities", "depth", "depths", "gt",     "truth", "groundtruth",
-      "mask", "masks", "occl",      "occ",         "nocc",  "noc",    "nonocc", "flow",  "occlusions"};
+      "disp",  "disps",  "disparity",    "disparities", "depth",    "depths",
+      "gt",    "truth",  "groundtruth",  "mask",        "masks",    "occl",
+      "occ",   "nocc",   "noc",          "nonocc",      "flow",     "occlusions",
+      "seg",   "segs",   "semantic",     "semantics",   "instance", "instances",
+      "label", "labels", "segmentation", "normals",     "conf",     "confidence"};
   const std::vector<std::string> all = words(stem);
   return std::any_of(all.begin(), all.end(), [](const std::string& word) { return kinds.count(word) > 0; });
 }

@@ -193,8 +193,8 @@ TEST_F(RunResults, OfTheBuiltInScene) {
 
 TEST_F(RunResults, OfASinglePair) {
   ASSERT_EQ(program_("scene --size 96x64 --disparities 32 --rectified --out in").code, 0);
-  run("--left in/left.png --right in/right.png --ground-truth in/disp_gt.png --mask in/mask_nocc.png --out "
-      "out");
+  run("--left in/left.png --right in/right.png --ground-truth in/disp_gt.png --mask in/mask_nocc.png "
+      "--ground-truth-scale 256 --out out");
   std::vector<std::string> expected = frame_files(true, false);
   expected.insert(expected.end(), {"profile.json", "timing.json"});
   std::sort(expected.begin(), expected.end());

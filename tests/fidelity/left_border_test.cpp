@@ -24,13 +24,13 @@ TEST(LeftBorder, OnlyMatchesInTheRightImageRemain) {
     const int x = static_cast<int>(i % static_cast<std::size_t>(width));
     const bool valid = output[i].valid();
     ASSERT_TRUE(!valid || integer_disparity(output[i]) <= x);
-    const int truth = scene->truth.disparity[i];
+    const double truth = scene->truth.disparity[i];
     if (truth == 0 || x >= config.matching.range().last()) continue;
     if (scene->truth.mask[i] == 255) {
       ++in_view;
       found += valid;
-      right += valid && std::abs(16 * output[i].value - truth) <= 2 * 256;
-    } else if (truth > 256 * x) {
+      right += valid && scene->truth.error(i, output[i]) <= 2;
+    } else if (truth > x) {
       ++out_of_view;
       guessed += valid;
     }

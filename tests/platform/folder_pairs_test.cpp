@@ -186,6 +186,16 @@ TEST(FolderPairs, LayoutsOfDataSets) {
       {"Virtual KITTI 2, from below",
        {"Camera_0/rgb_00000.jpg", "Camera_1/rgb_00000.jpg"},
        {"Camera_0/rgb_00000.jpg Camera_1/rgb_00000.jpg"}},
+      {"New Tsukuba",
+       {"left/daylight_L_1.png", "right/daylight_R_1.png"},
+       {"left/daylight_L_1.png right/daylight_R_1.png"}},
+      {"Falling Things",
+       {"0.left.jpg", "0.right.jpg", "0.left.depth.png", "0.right.depth.png", "0.left.seg.png",
+        "0.right.seg.png"},
+       {"0.left.jpg 0.right.jpg"}},
+      {"truth beside the images of the same side",
+       {"1_left.jpg", "1_right.jpg", "1_left.disp.png", "1_right.disp.png"},
+       {"1_left.jpg 1_right.jpg"}},
       {"half written", {"left.png", "right.png", ".left_2.png"}, {"left.png right.png"}},
   };
   for (const FolderCase& c : cases) {
