@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "platform/images/image_file.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -44,12 +45,14 @@ cv::Mat decode(const std::string& path) {
 void require_image_file(const std::string& path, const std::string& what) {
   std::error_code failed;
   const fs::file_status status = fs::status(path, failed);
-  if (!fs::exists(status)) throw UserError(fmt::format("{} {} does not exist", what, path));
+  if (status.type() == fs::file_type::not_found)
+    throw UserError(fmt::format("{} {} does not exist", what, path));
+  if (failed) throw UserError(fmt::format("cannot read {} {}: {}", what, path, failed.message()));
   if (fs::is_directory(status))
     throw UserError(fmt::format("{} is a folder, expected {} {}", path, article(what), what));
   if (!fs::is_regular_file(status))
     throw UserError(fmt::format("{} is no file, expected {} {}", path, article(what), what));
-  if (::access(path.c_str(), R_OK) != 0)
+  if (::faccessat(AT_FDCWD, path.c_str(), R_OK, AT_EACCESS) != 0)
     throw UserError(fmt::format("cannot read {} {}: {}", what, path, std::strerror(errno)));
 }
 

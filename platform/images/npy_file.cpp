@@ -40,7 +40,7 @@ ArrayLayout layout_of(const std::vector<std::uint8_t>& bytes, const std::string&
                                           : number_of_bytes<std::uint32_t>(bytes.data() + length_at, false);
   ArrayLayout layout;
   layout.begin = length_at + (version == 1 ? 2 : 4) + length;
-  constexpr std::size_t kLongest = 1 << 16;
+  constexpr std::size_t kLongest = 1 << 12;
   if (layout.begin > bytes.size() || length > kLongest) throw damaged("it ends there");
   const std::string header(reinterpret_cast<const char*>(bytes.data()) + layout.begin - length, length);
   static const std::regex type("['\"]descr['\"]\\s*:\\s*['\"]([<>=|]?)([a-zA-Z?][0-9]*)['\"]");

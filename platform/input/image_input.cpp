@@ -64,6 +64,10 @@ ImageInput::ImageInput(std::vector<ImagePair> pairs, const ImageChoice& choice, 
     require_image_file(pair.right.string(), "image");
   }
   load(0);
+  if (choice_.bits && bits_ == 0) {
+    throw UserError(fmt::format("--image-bits is for 16-bit images, but {} and its partner have 8 bits",
+                                pairs_.front().left.string()));
+  }
 }
 
 StereoImages ImageInput::load(std::size_t frame) {

@@ -68,6 +68,7 @@ void check_timing_only(const RunOptions& options) {
   };
   refuse("--ground-truth", !options.ground_truth.empty());
   refuse("--mask", !options.mask.empty());
+  refuse("--image-bits", options.image_bits.has_value());
   refuse("--no-point-cloud", !options.point_cloud);
 }
 

@@ -114,6 +114,10 @@ TEST_F(BadInput, BitsOfImages) {
   EXPECT_EQ(pair_error("--image-bits 7"), "--image-bits is 7, allowed is 8 to 16");
   EXPECT_EQ(pair_error("--image-bits 17"), "--image-bits is 17, allowed is 8 to 16");
   EXPECT_EQ(error("--image-bits 12"), "--image-bits is for 16-bit images, but none are given");
+  EXPECT_EQ(pair_error("--image-bits 12"),
+            "--image-bits is for 16-bit images, but left.png and its partner have 8 bits");
+  EXPECT_EQ(pair_error("--timing-only --image-bits 12"),
+            "--timing-only computes no images: it cannot go with --image-bits");
   image("bright.png", cv::Mat(48, 64, CV_16UC1, cv::Scalar(5000)));
   EXPECT_EQ(error("--left bright.png --right bright.png --image-bits 12"),
             "image bright.png holds the value 5000, beyond the 12 bits of --image-bits (at most 4095)");

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
-#include <fstream>
+#include <filesystem>
 #include <opencv2/core.hpp>
 
 #include "platform/images/image_codecs.hpp"
@@ -13,6 +13,8 @@
 #include "platform/results/output_file.hpp"
 #include "tests/platform/error_of.hpp"
 #include "tests/platform/temporary_folder.hpp"
+#include "tests/platform/unprivileged.hpp"
+#include "tlm/error.hpp"
 
 namespace parallax {
 namespace image_file_test {
@@ -81,6 +83,15 @@ TEST(ImageFile, TheSizeIsJudgedBeforeAnythingIsUnpacked) {
             "too large");
 }
 
+TEST(ImageFile, TheLargestImageOfAll) {
+  const auto error = [](const cv::Size& size) {
+    return error_of([&] { at_most_any_image("a.png", "result")(size); });
+  };
+  EXPECT_EQ(error({16384, 16384}), "(no error)");
+  EXPECT_EQ(error({20000, 20000}),
+            "result a.png is 20000x20000, larger than the largest size of 268435456 px");
+}
+
 TEST(ImageFile, WhatIsNoImageFile) {
   const TemporaryFolder folder;
   const auto error = [&](const std::string& name) {
@@ -92,6 +103,16 @@ TEST(ImageFile, WhatIsNoImageFile) {
   EXPECT_EQ(error(""), folder.path().string() + "/ is a folder, expected an image");
   ::mkfifo((folder / "pipe").c_str(), 0600);
   EXPECT_EQ(error("pipe"), folder / "pipe" + " is no file, expected an image");
+  folder.write("locked", "x");
+  ::chmod((folder / "locked").c_str(), 0);
+  ::chmod(folder.path().c_str(), 0755);
+  {
+    const Unprivileged unprivileged;
+    EXPECT_EQ(error("locked"), "cannot read image " + (folder / "locked") + ": Permission denied");
+  }
+  std::filesystem::create_symlink("circle", folder.path() / "circle");
+  EXPECT_EQ(error("circle"),
+            "cannot read image " + (folder / "circle") + ": Too many levels of symbolic links");
   folder.write("header.png", png_of(16, 16));
   EXPECT_EQ(error("header.png"), "cannot read image " + (folder / "header.png") +
                                      ": it is damaged, or not a PNG, JPEG, TIFF, BMP, PNM or WebP file");

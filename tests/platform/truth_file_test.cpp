@@ -307,6 +307,28 @@ TEST_F(TruthFile, FilesThatAreNone) {
   }
 }
 
+TEST_F(TruthFile, DamageAnywhereIsOneLineOrAnotherTruth) {
+  image("a.tiff", cv::Mat(3, 4, CV_32FC1, cv::Scalar(5)));
+  image("a.png", cv::Mat(3, 4, CV_16UC1, cv::Scalar(500)));
+  const std::string files[] = {pfm("Pf\n4 3\n-1.0\n", false),
+                               npy(1, "<f4", false, "(3, 4)", ramp<float>(false)),
+                               npy(2, ">u2", true, "(3, 4)", ramp<std::uint16_t>(true)),
+                               folder_.read("a.tiff"), folder_.read("a.png")};
+  for (const std::string& whole : files) {
+    for (std::size_t at = 0; at < whole.size(); at += 3) {
+      for (const int flip : {0x01, 0xFF}) {
+        std::string damaged = whole;
+        damaged[at] = static_cast<char>(damaged[at] ^ flip);
+        write("damaged", damaged);
+        EXPECT_EQ(complaint("damaged").find('\n'), std::string::npos) << at;
+      }
+      write("damaged", whole.substr(0, at));
+      // The last bytes of a TIFF say that no other image follows.
+      EXPECT_TRUE(complaint("damaged") != "(no error)" || at + 4 >= whole.size()) << at;
+    }
+  }
+}
+
 /// 20 x 20 disparities from 4 px upwards, and the truth that a file of them times `stored` holds when it is
 /// read with the scale `assumed`.
 struct Scaled {
