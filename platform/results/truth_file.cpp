@@ -3,9 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <iterator>
 #include <opencv2/core.hpp>
 
 #include "platform/images/image_file.hpp"
@@ -51,26 +51,27 @@ cv::Mat grey(const cv::Mat& image) {
   return is_grey ? channels[0] : cv::Mat();
 }
 
-std::vector<std::uint8_t> bytes_of(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-std::vector<std::uint8_t> first_bytes(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::vector<std::uint8_t> bytes(8);
+// The first bytes of a file, all when there are no more.
+std::vector<std::uint8_t> bytes_of(const std::string& path, std::size_t most) {
+  std::ifstream file(path, std::ios::binary | std::ios::ate);
+  const std::streamoff size = file ? std::streamoff(file.tellg()) : 0;
+  std::vector<std::uint8_t> bytes(std::min<std::size_t>(most, std::max<std::streamoff>(0, size)));
+  file.seekg(0);
   file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
   return bytes;
 }
 
-TruthValues read_truth_values(const std::string& path, const SizeCheck& check) {
+// `most`: bytes that a file of the right size has, and more.
+TruthValues read_truth_values(const std::string& path, std::size_t most, const SizeCheck& check) {
   require_image_file(path, kTruthFile);
-  const std::vector<std::uint8_t> head = first_bytes(path);
+  constexpr std::size_t kHead = 8;
+  std::vector<std::uint8_t> head = bytes_of(path, kHead);
+  head.resize(kHead);
   if (is_pfm(head)) {
-    const PfmImage map = read_pfm(bytes_of(path), path, check);
+    const PfmImage map = read_pfm(bytes_of(path, most), path, check);
     return {map.values, map.scale};
   }
-  if (is_npy(head)) return {read_npy(bytes_of(path), path, check)};
+  if (is_npy(head)) return {read_npy(bytes_of(path, most), path, check)};
   if (head[0] == 'P' && head[1] == 'K') {
     throw UserError(fmt::format("{}: an archive (.npz); the {} must be one array, as numpy.save writes it",
                                 path, kTruthFile));
@@ -136,8 +137,11 @@ GroundTruth read_ground_truth(const TruthFiles& files, int width, int height,
                               const std::function<void(const std::string&)>& notice) {
   if (files.scale && !(*files.scale > 0 && std::isfinite(*files.scale)))
     throw UserError(fmt::format("--ground-truth-scale is {}, allowed is a number above 0", *files.scale));
+  constexpr std::size_t kLargestSample = 8, kLongestHeader = 1 << 16;
+  const std::size_t most =
+      kLargestSample * static_cast<std::size_t>(width) * static_cast<std::size_t>(height) + kLongestHeader;
   const TruthValues values =
-      read_truth_values(files.truth, same_size(files.truth, kTruthFile, width, height));
+      read_truth_values(files.truth, most, same_size(files.truth, kTruthFile, width, height));
   const double scale = scale_of(files, values, notice);
   GroundTruth result{width, height, disparities(values.image, scale), {}, scale};
   if (!files.mask.empty()) {
