@@ -12,6 +12,7 @@
 
 #include "platform/input/folder_layouts.hpp"
 #include "platform/input/image_names.hpp"
+#include "platform/input/letters.hpp"
 #include "tlm/error.hpp"
 
 namespace parallax {

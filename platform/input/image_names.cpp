@@ -7,6 +7,7 @@
 #include <cctype>
 #include <set>
 
+#include "platform/input/letters.hpp"
 #include "tlm/error.hpp"
 
 namespace parallax {
@@ -71,12 +72,6 @@ void add_below(const fs::path& folder, const std::string& prefix, int depth,
 }
 
 }  // namespace
-
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  return text;
-}
 
 std::vector<std::string> image_names(const fs::path& folder) {
   std::vector<std::string> images, others;

@@ -7,9 +7,6 @@
 
 namespace parallax {
 
-/// In small letters; bytes beyond ASCII stay.
-std::string lower(std::string text);
-
 /// Whether `a` comes before `b` when runs of digits count as numbers.
 bool natural_less(const std::string& a, const std::string& b);
 

@@ -12,7 +12,7 @@
 #include <set>
 #include <sstream>
 
-#include "platform/input/image_names.hpp"
+#include "platform/input/letters.hpp"
 #include "tlm/error.hpp"
 
 namespace parallax {

@@ -109,12 +109,13 @@ double scale_of(const TruthFiles& files, const TruthValues& values,
   const int depth = values.image.depth();
   constexpr double kKitti = 256;
   const double assumed = depth == CV_16U ? kKitti : 1;
-  const char* const kind = depth == CV_16U  ? "16-bit integers"
-                           : depth == CV_8U ? "8-bit integers"
-                                            : "signed or floating-point values";
+  const char* const kind = depth == CV_16U   ? "16-bit integers"
+                           : depth == CV_8U  ? "8-bit integers"
+                           : depth == CV_32F ? "floating-point values"
+                                             : "numbers";
   if (notice) {
     notice(fmt::format("ground truth {}: {}, taken as disparity * {:g}; --ground-truth-scale states another",
-                       files.truth, depth == CV_32F ? "floating-point values" : kind, assumed));
+                       files.truth, kind, assumed));
   }
   return assumed;
 }
