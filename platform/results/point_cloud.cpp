@@ -30,6 +30,7 @@ std::vector<unsigned char> encode_point_cloud_ply(const DisparityView& map, cons
   }
   std::vector<unsigned char> vertices;
   std::size_t count = 0;
+  std::size_t behind = 0;
   for (int y = 0; y < map.height; ++y) {
     for (int x = 0; x < map.width; ++x) {
       const Disparity& pixel = map.row(y)[x];
@@ -42,6 +43,10 @@ std::vector<unsigned char> encode_point_cloud_ply(const DisparityView& map, cons
       if (!std::isfinite(point[0]) || !std::isfinite(point[1]) || !std::isfinite(point[2])) {
         continue;
       }
+      if (!(point[2] > 0)) {
+        ++behind;
+        continue;
+      }
       for (int axis = 0; axis < 3; ++axis) {
         put_float(vertices, point[axis]);
       }
@@ -49,12 +54,15 @@ std::vector<unsigned char> encode_point_cloud_ply(const DisparityView& map, cons
       ++count;
     }
   }
+  const std::string left_out =
+      behind == 0 ? ""
+                  : fmt::format("comment left out: {} pixels whose points lie behind the camera\n", behind);
   const std::string header = fmt::format(
       "ply\nformat binary_little_endian 1.0\ncomment unit: that of the calibration\n"
-      "comment axes of the left camera: x right, y down, z forward\nelement vertex {}\n"
+      "comment axes of the left camera: x right, y down, z forward\n{}element vertex {}\n"
       "property float x\nproperty float y\nproperty float z\n"
       "property uchar red\nproperty uchar green\nproperty uchar blue\nend_header\n",
-      count);
+      left_out, count);
   vertices.insert(vertices.begin(), header.begin(), header.end());
   return vertices;
 }
