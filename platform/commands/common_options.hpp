@@ -13,6 +13,11 @@ class App;
 
 namespace parallax {
 
+/// What --cameras is for.
+constexpr const char* kCamerasHelp =
+    "Left and right camera of a calibration with several (KITTI: 0,1 grey, 2,3 colour; Kalibr): 0,1 if not "
+    "given";
+
 /// --preset, --set, --disparities: the configuration of the machine.
 void add_configuration_options(CLI::App& command, ConfigurationRequest& request);
 

@@ -13,12 +13,13 @@
 #include <vector>
 
 #include "platform/commands/command_context.hpp"
-#include "platform/input/calibration.hpp"
+#include "platform/commands/common_options.hpp"
 #include "platform/input/map_builder.hpp"
 #include "platform/input/map_fit.hpp"
 #include "platform/input/map_info.hpp"
 #include "platform/input/map_storage.hpp"
 #include "platform/input/raw_map_file.hpp"
+#include "platform/input/read_calibration.hpp"
 #include "tlm/error.hpp"
 #include "traces/json_text.hpp"
 
@@ -28,6 +29,7 @@ namespace {
 
 struct EncodeOptions {
   std::vector<std::string> calibration;
+  std::string cameras;
   std::vector<std::string> maps;
   std::string identity;
   std::string size;
@@ -59,7 +61,8 @@ ImageSize parse_size(const std::string& option, const std::string& text) {
 
 RectificationMap map_of_calibration(const EncodeOptions& options, std::ostream& out) {
   const ImageSize size = options.size.empty() ? ImageSize{} : parse_size("--size", options.size);
-  Calibration calibration = read_calibration(options.calibration, size);
+  Calibration calibration =
+      read_calibration(options.calibration, size, camera_pair("--cameras", options.cameras));
   if (!options.size.empty()) {
     check_size(calibration, size);
   }
@@ -101,14 +104,18 @@ void add_encode(CLI::App& command, CommandContext& context) {
   auto options = std::make_shared<EncodeOptions>();
   CLI::App* encode_command = command.add_subcommand("encode", "Compress a rectification map");
   CLI::Option_group* source = encode_command->add_option_group("source", "Where the offsets come from");
-  CLI::Option* calibration = source->add_option(
-      "--calibration", options->calibration,
-      "OpenCV calibration file, or files that complete each other (intrinsics, extrinsics)");
+  CLI::Option* calibration = source->add_option("--calibration", options->calibration,
+                                                "Calibration of OpenCV (one file, or intrinsics and "
+                                                "extrinsics), ROS (two files, left and right), Kalibr or "
+                                                "KITTI");
   source->add_option(
       "--maps", options->maps,
       "Raw maps: one .yml/.xml/.json with left_x, left_y, right_x, right_y, or four float images");
   source->add_option("--identity", options->identity, "Map of a rectified pair of this size: WxH");
   source->require_option(1);
+  encode_command->add_option("--cameras", options->cameras, kCamerasHelp)
+      ->type_name("L,R")
+      ->needs(calibration);
   encode_command->add_option("--size", options->size, "Image size WxH, for calibrations that do not state it")
       ->needs(calibration);
   encode_command

@@ -77,11 +77,17 @@ void add_run_command(CLI::App& app, CommandContext& context) {
       ->group("Input");
 
   command
-      .add_option("--calibration", options->calibration,
-                  "The images are not rectified: OpenCV calibration file, or files that complete each other")
+      .add_option(
+          "--calibration", options->calibration,
+          "Calibration: OpenCV, ROS (two files, left and right), Kalibr, KITTI or Middlebury, told by its "
+          "content. Raw images are rectified by it, the point cloud has its scale")
       ->check(not_empty())
       ->type_name("FILE")
       ->take_all()
+      ->group("Rectification");
+  command.add_option("--cameras", options->cameras, kCamerasHelp)
+      ->check(not_empty())
+      ->type_name("L,R")
       ->group("Rectification");
   command
       .add_option("--map", options->map,

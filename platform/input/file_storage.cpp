@@ -3,26 +3,62 @@
 
 #include <fmt/format.h>
 
-#include <cstdint>
-#include <vector>
+#include <exception>
+#include <set>
 
-#include "platform/input/input_file.hpp"
+#include "platform/input/text_file.hpp"
 #include "tlm/error.hpp"
 
 namespace parallax {
+namespace {
 
-cv::FileStorage open_file_storage(const std::string& path) {
-  const std::vector<std::uint8_t> bytes = read_file(path);
+// Where OpenCV 4 has the reason for a parsing error: in the place of the function's name, as "FILE(LINE):
+// REASON".
+std::string reason(const cv::Exception& error) {
+  const std::size_t colon = error.func.rfind("): ");
+  const std::size_t bracket = error.func.rfind('(', colon);
+  if (error.code == cv::Error::StsParseError && colon != std::string::npos && bracket != std::string::npos) {
+    return fmt::format("line {}: {}", error.func.substr(bracket + 1, colon - bracket - 1),
+                       error.func.substr(colon + 3));
+  }
+  return error.err;
+}
+
+void check_begin(const std::string& text, const std::string& path) {
+  const std::size_t begin = text.find_first_not_of(" \t\r\n");
+  if (begin == std::string::npos) {
+    throw UserError(fmt::format("{}: not an OpenCV YAML, XML or JSON file: it is empty", path));
+  }
+  if (text.compare(0, 5, "%YAML") == 0 || text.compare(0, 5, "<?xml") == 0 || text[begin] == '{') return;
+  throw UserError(fmt::format(
+      "{}: not an OpenCV YAML, XML or JSON file: the first line of OpenCV's YAML is %YAML:1.0, XML begins "
+      "with <?xml, JSON with {{",
+      path));
+}
+
+}  // namespace
+
+cv::FileStorage parse_file_storage(const std::string& text, const std::string& path) {
+  check_begin(text, path);
   try {
-    cv::FileStorage file(std::string(bytes.begin(), bytes.end()),
-                         cv::FileStorage::READ | cv::FileStorage::MEMORY);
+    cv::FileStorage file(text, cv::FileStorage::READ | cv::FileStorage::MEMORY);
     if (file.isOpened() && file.root().isMap()) {
+      std::set<std::string> names;
+      for (const cv::FileNode& entry : file.root()) {
+        if (!names.insert(entry.name()).second) {
+          throw UserError(fmt::format("{}: {} occurs twice", path, entry.name()));
+        }
+      }
       return file;
     }
   } catch (const cv::Exception& error) {
-    throw UserError(fmt::format("{}: not an OpenCV YAML, XML or JSON file: {}", path, error.err));
+    throw UserError(fmt::format("{}: not an OpenCV YAML, XML or JSON file: {}", path, reason(error)));
   }
-  throw UserError(fmt::format("{}: not an OpenCV YAML, XML or JSON file", path));
+  throw UserError(fmt::format("{}: not an OpenCV YAML, XML or JSON file: it has no named entries", path));
+}
+
+cv::FileStorage open_file_storage(const std::string& path) {
+  return parse_file_storage(read_text_file(path), path);
 }
 
 }  // namespace parallax

@@ -1,16 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "platform/input/calibration_file.hpp"
+#include "platform/input/file_storage_entries.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
+#include <exception>
 #include <opencv2/core.hpp>
 
 #include "platform/input/file_storage.hpp"
 #include "tlm/error.hpp"
 
 namespace parallax {
+
+struct FileStorageEntries::File {
+  std::string path;
+  cv::FileStorage storage;
+};
+
+struct FileStorageEntries::Place {
+  std::string name;  ///< "file: entry"
+  cv::FileNode node;
+};
 
 namespace {
 
@@ -35,71 +46,90 @@ cv::Mat to_mat(const cv::FileNode& node) {
   return mat;
 }
 
-}  // namespace
-
-CalibrationFile::CalibrationFile(const std::vector<std::string>& paths)
-    : name_(fmt::format("{}", fmt::join(paths, " + "))) {
-  for (const std::string& path : paths) {
-    files_.push_back(open_file_storage(path));
-  }
-}
-
-cv::FileNode CalibrationFile::find(const Names& names) const {
-  for (const cv::FileStorage& file : files_) {
-    for (const std::string& name : names) {
-      const cv::FileNode node = file[name];
-      if (!node.empty()) {
-        return node;
-      }
-    }
-  }
-  return {};
-}
-
-bool CalibrationFile::has(const Names& names) const { return !find(names).empty(); }
-
-std::vector<double> CalibrationFile::numbers(const Names& names, const std::vector<Shape>& shapes) const {
-  const cv::FileNode node = find(names);
-  if (node.empty()) {
-    throw UserError(fmt::format("{}: {} is missing", name_, names.front()));
-  }
+std::vector<double> numbers_at(const cv::FileNode& node, const std::string& place,
+                               const std::vector<FileStorageEntries::Shape>& shapes) {
   cv::Mat mat;
   try {
     mat = to_mat(node);
-  } catch (const cv::Exception&) {
+  } catch (const std::exception&) {
     mat.release();
   }
   if (mat.empty() || mat.dims != 2 || mat.channels() != 1) {
-    throw UserError(fmt::format("{}: {} is not a matrix of numbers", name_, node.name()));
+    throw UserError(place + " is not a matrix of numbers");
   }
-  bool fits = shapes.empty();
-  for (const auto& [rows, columns] : shapes) {
-    fits |= mat.rows == rows && mat.cols == columns;
-  }
-  if (!fits) {
-    throw UserError(fmt::format("{}: {} has {}x{} elements, {}x{} expected", name_, node.name(), mat.rows,
-                                mat.cols, shapes.front().first, shapes.front().second));
+  const bool fits = std::any_of(shapes.begin(), shapes.end(), [&mat](const auto& shape) {
+    return mat.rows == shape.first && mat.cols == shape.second;
+  });
+  if (!shapes.empty() && !fits) {
+    throw UserError(fmt::format("{} has {}x{} elements, {}x{} expected", place, mat.rows, mat.cols,
+                                shapes.front().first, shapes.front().second));
   }
   cv::Mat_<double> doubles;
   mat.convertTo(doubles, CV_64F);
   std::vector<double> values(doubles.begin(), doubles.end());
-  for (const double value : values) {
-    if (!std::isfinite(value)) {
-      throw UserError(fmt::format("{}: {} holds a value that is not a finite number", name_, node.name()));
+  if (!std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); })) {
+    throw UserError(place + " holds a value that is not a finite number");
+  }
+  return values;
+}
+
+}  // namespace
+
+FileStorageEntries::FileStorageEntries(const std::vector<CalibrationRequest::File>& files) {
+  for (const CalibrationRequest::File& file : files) {
+    files_.push_back({file.path, parse_file_storage(file.text, file.path)});
+  }
+}
+
+FileStorageEntries::~FileStorageEntries() = default;
+
+std::vector<FileStorageEntries::Place> FileStorageEntries::places(const Names& names) const {
+  std::vector<Place> found;
+  for (const File& file : files_) {
+    for (const std::string& name : names) {
+      const cv::FileNode node = file.storage[name];
+      if (!node.empty()) found.push_back({fmt::format("{}: {}", file.path, name), node});
+    }
+  }
+  return found;
+}
+
+bool FileStorageEntries::has(const Names& names) const { return !places(names).empty(); }
+
+std::string FileStorageEntries::where(const Names& names) const {
+  const std::vector<Place> found = places(names);
+  if (!found.empty()) return found.front().name;
+  std::string all;
+  for (const File& file : files_) all += (all.empty() ? "" : " + ") + file.path;
+  return fmt::format("{}: {}", all, names.front());
+}
+
+void FileStorageEntries::missing(const Names& names) const { throw UserError(where(names) + " is missing"); }
+
+std::vector<double> FileStorageEntries::numbers(const Names& names, const std::vector<Shape>& shapes) const {
+  const std::vector<Place> found = places(names);
+  if (found.empty()) missing(names);
+  std::vector<double> values = numbers_at(found.front().node, found.front().name, shapes);
+  for (const Place& other : found) {
+    if (numbers_at(other.node, other.name, shapes) != values) {
+      throw UserError(fmt::format("{} contradicts {}", found.front().name, other.name));
     }
   }
   return values;
 }
 
-std::string CalibrationFile::text(const Names& names, const std::string& otherwise) const {
-  const cv::FileNode node = find(names);
-  if (node.empty()) {
-    return otherwise;
+std::string FileStorageEntries::text(const Names& names, const std::string& otherwise) const {
+  std::optional<std::string> text;
+  for (const Place& place : places(names)) {
+    if (!place.node.isString()) throw UserError(place.name + " is not a text");
+    const auto here = static_cast<std::string>(place.node);
+    if (text && *text != here) {
+      throw UserError(
+          fmt::format("{} contradicts the same entry elsewhere: \"{}\" and \"{}\"", place.name, here, *text));
+    }
+    text = here;
   }
-  if (!node.isString()) {
-    throw UserError(fmt::format("{}: {} is not a text", name_, node.name()));
-  }
-  return static_cast<std::string>(node);
+  return text.value_or(otherwise);
 }
 
 }  // namespace parallax

@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "platform/input/calibration_request.hpp"
+
 namespace cv {
 class FileNode;
 class FileStorage;
@@ -12,28 +14,32 @@ class FileStorage;
 
 namespace parallax {
 
-/// Entries of one or more OpenCV FileStorage files, looked up under any of several names. Every failure is a
-/// UserError naming file and entry.
-class CalibrationFile {
+/// Entries of one or more OpenCV FileStorage files, looked up under any of several names. An entry that
+/// stands in several places must be the same in all. Every failure is a UserError naming file and entry.
+class FileStorageEntries {
  public:
   using Names = std::vector<std::string>;
   using Shape = std::pair<int, int>;  ///< rows, columns
 
-  explicit CalibrationFile(const std::vector<std::string>& paths);
+  explicit FileStorageEntries(const std::vector<CalibrationRequest::File>& files);
+  ~FileStorageEntries();
 
-  /// All paths, for messages.
-  const std::string& name() const { return name_; }
   bool has(const Names& names) const;
   /// Row-major, all finite. With `shapes` given, the entry must have one of them; a plain list counts as a
   /// column.
   std::vector<double> numbers(const Names& names, const std::vector<Shape>& shapes) const;
   std::string text(const Names& names, const std::string& otherwise) const;
+  /// "file: entry" as it stands there, for messages; with all files when it is missing.
+  std::string where(const Names& names) const;
 
  private:
-  cv::FileNode find(const Names& names) const;
+  struct File;
+  struct Place;
 
-  std::vector<cv::FileStorage> files_;
-  std::string name_;
+  std::vector<Place> places(const Names& names) const;
+  [[noreturn]] void missing(const Names& names) const;
+
+  std::vector<File> files_;
 };
 
 }  // namespace parallax

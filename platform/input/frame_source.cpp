@@ -25,7 +25,7 @@ Calibration calibration_of(const SceneCalibration& scene) {
   calibration.R2 = scene.right.rectifying_rotation;
   calibration.P1 = scene.p1;
   calibration.P2 = scene.p2;
-  calibration.Q = scene.q;
+  calibration.geometry = geometry_of(scene.p1, scene.p2);
   calibration.unit = "m";
   return calibration;
 }

@@ -68,12 +68,13 @@ Calibration moved(const Calibration& calibration, const Fit& fit) {
     p(0, 0) *= fit.zoom;
     p(1, 1) *= fit.zoom;
     p(0, 3) *= fit.zoom;
+    p(1, 3) *= fit.zoom;
     p(0, 2) += shift_x;
     p(1, 2) += fit.shift_y;
   };
   apply(c.P1, fit.shift_left_x);
   apply(c.P2, fit.shift_right_x);
-  c.Q = disparity_to_depth(c.P1, c.P2);
+  c.geometry = geometry_of(c.P1, c.P2);
   return c;
 }
 

@@ -11,7 +11,7 @@ namespace parallax {
 
 /// A rectification that has been zoomed and shifted so that its offsets fit into the window.
 struct Fit {
-  Calibration calibration;  ///< with the new P1, P2 and Q
+  Calibration calibration;  ///< with the new P1, P2 and geometry
   double zoom = 1;          ///< new over old focal length, the same for both images
   double shift_left_x = 0;  ///< how far the principal point of the left image moved, px
   double shift_right_x = 0;

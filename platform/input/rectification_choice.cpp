@@ -8,6 +8,7 @@
 #include "platform/input/map_builder.hpp"
 #include "platform/input/map_fit.hpp"
 #include "platform/input/map_storage.hpp"
+#include "platform/input/read_calibration.hpp"
 #include "tlm/error.hpp"
 
 namespace parallax {
@@ -57,10 +58,21 @@ EncodedMap map_of_file(const std::string& path, const OffsetRange& range, const 
   return encoded;
 }
 
+// Where the principal points are apart, a point at infinity has a disparity, and smaller ones mean nothing.
+void note_least_disparity(const Calibration& calibration, const NoticeSink& notice) {
+  constexpr double kWorthSaying = 0.01;  // px
+  if (!calibration.geometry || calibration.geometry->doffs() > -kWorthSaying) return;
+  notice(fmt::format(
+      "{}: a point at infinity has the disparity {:.2f} px, as the principal points are so far apart: "
+      "points.ply leaves out what has a smaller one, which would lie behind the camera",
+      calibration.source, -calibration.geometry->doffs()));
+}
+
 Calibration given_calibration(const RunOptions& options, const OffsetRange& range, const FrameSource& source,
                               const NoticeSink& notice) {
   const ImageSize size{source.width(), source.height()};
-  Calibration calibration = read_calibration(options.calibration, size);
+  Calibration calibration =
+      read_calibration(options.calibration, size, camera_pair("--cameras", options.cameras));
   check_size(calibration, size);
   if (options.fit) {
     if (const std::optional<Fit> found = fit(calibration, range)) {
@@ -77,9 +89,12 @@ RectificationChoice choose_rectification(const RunOptions& options, const Offset
                                          const FrameSource& source, const cv::Size& processed,
                                          const NoticeSink& notice) {
   std::optional<Calibration> calibration = source.calibration();
-  if (!options.calibration.empty()) calibration = given_calibration(options, range, source, notice);
+  if (!options.calibration.empty()) {
+    calibration = given_calibration(options, range, source, notice);
+    note_least_disparity(*calibration, notice);
+  }
   RectificationChoice choice;
-  if (calibration && calibration->metric()) choice.q = calibration->Q;
+  if (calibration && calibration->geometry) choice.q = disparity_to_depth(*calibration->geometry);
   PaddedMap map(source, processed, range);
   const RowSink<OffsetPair> push = [&map](const OffsetPair* row) { map.push(row); };
   if (!options.map.empty()) {

@@ -127,6 +127,8 @@ void check_options(const RunOptions& options) {
   if (options.image_bits && (*options.image_bits < 8 || *options.image_bits > 16))
     throw UserError(fmt::format("--image-bits is {}, allowed is 8 to 16", *options.image_bits));
   if (options.fit && options.calibration.empty()) throw UserError("--fit needs --calibration");
+  if (!options.cameras.empty() && options.calibration.empty())
+    throw UserError("--cameras needs --calibration");
   if (!options.map.empty() && !options.calibration.empty()) {
     throw UserError("--map and --calibration exclude each other: both say how to rectify");
   }

@@ -31,6 +31,7 @@ struct RunOptions {
   std::string mask;
   // Rectification.
   std::vector<std::string> calibration;
+  std::string cameras;  ///< "2,3": of a calibration with several
   std::string map;
   bool fit = false;
   // Output.

@@ -9,7 +9,7 @@
 #include "platform/config/configuration.hpp"
 #include "platform/config/preset.hpp"
 #include "platform/images/image_codecs.hpp"
-#include "platform/input/calibration.hpp"
+#include "platform/input/read_calibration.hpp"
 #include "platform/input/image_padding.hpp"
 #include "platform/input/map_builder.hpp"
 #include "platform/results/disparity_bin.hpp"

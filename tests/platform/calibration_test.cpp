@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "platform/input/calibration.hpp"
+#include "platform/input/read_calibration.hpp"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <opencv2/calib3d.hpp>
 
 #include "tests/paths.hpp"
@@ -23,6 +24,7 @@ class CalibrationTest : public test::FolderTest {
     const std::string file = write("c.yml", with_entry(pair.text(), name, line));
     const std::string text = message([&] { read_calibration({file}); });
     const std::string prefix = file + ": ";
+    if (text.empty()) return text;
     EXPECT_EQ(text.substr(0, prefix.size()), prefix);
     EXPECT_EQ(text.find('\n'), std::string::npos);
     return text.size() > prefix.size() ? text.substr(prefix.size()) : text;
@@ -36,11 +38,13 @@ TEST_F(CalibrationTest, ReadsTheSharedOnes) {
       GTEST_SKIP() << "no shared data";
     }
     const Calibration c = read_calibration({file});
-    EXPECT_TRUE(c.metric());
-    EXPECT_GT(c.baseline(), 0.1);
+    ASSERT_TRUE(c.geometry);
+    EXPECT_GT(c.geometry->baseline, 0.1);
     EXPECT_EQ(c.model, std::string(scene) == "kitti_seq2" ? LensModel::kRectified : LensModel::kPinhole);
     // The file's own Q is what P1 and P2 give.
-    EXPECT_LT(cv::norm(c.Q - disparity_to_depth(c.P1, c.P2)), 1e-4);
+    cv::Mat q;
+    cv::FileStorage(file, cv::FileStorage::READ)["Q"] >> q;
+    EXPECT_LT(cv::norm(cv::Matx44d(q.ptr<double>()) - disparity_to_depth(*c.geometry)), 1e-4);
   }
 }
 
@@ -60,7 +64,7 @@ TEST_F(CalibrationTest, ComputesWhatTheFileLeavesOut) {
   EXPECT_LT(cv::norm(stated.R2 - computed.R2), 1e-9);
   EXPECT_LT(cv::norm(stated.P1 - computed.P1), 1e-3);
   EXPECT_LT(cv::norm(stated.P2 - computed.P2), 1e-3);
-  EXPECT_NEAR(computed.baseline(), 0.1101, 1e-4);
+  EXPECT_NEAR(computed.geometry->baseline, 0.1101, 1e-4);
 }
 
 TEST_F(CalibrationTest, EveryPinholeAndFisheyeModelIsRead) {
@@ -69,12 +73,12 @@ TEST_F(CalibrationTest, EveryPinholeAndFisheyeModelIsRead) {
     pair.distortion.resize(count);
     const Calibration c = read_calibration({write("c.yml", pair.text())});
     EXPECT_EQ(c.left.distortion.size(), count);
-    EXPECT_NEAR(c.baseline(), 0.1, 1e-3);
+    EXPECT_NEAR(c.geometry->baseline, 0.1, 1e-3);
     EXPECT_EQ(c.unit, "m");
   }
   const Calibration c = read_calibration({write("c.yml", test::fisheye_pair().text())});
   EXPECT_EQ(c.model, LensModel::kFisheye);
-  EXPECT_NEAR(c.baseline(), 0.1, 1e-3);
+  EXPECT_NEAR(c.geometry->baseline, 0.1, 1e-3);
 }
 
 TEST_F(CalibrationTest, AVeryWideFisheyeKeepsItsFocalLength) {
@@ -87,8 +91,7 @@ TEST_F(CalibrationTest, AVeryWideFisheyeKeepsItsFocalLength) {
   EXPECT_NEAR(c.P1(0, 0), 286, 1);
   EXPECT_EQ(c.P1(0, 2), 423.5);
   EXPECT_EQ(c.P1(1, 2), 399.5);
-  EXPECT_NEAR(c.baseline(), 0.1, 1e-3);
-  EXPECT_NEAR(c.Q(3, 2), 10, 0.1);
+  EXPECT_NEAR(c.geometry->baseline, 0.1, 1e-3);
 }
 
 TEST_F(CalibrationTest, ReadsIntrinsicsAndExtrinsicsOfTheStereoCalibSample) {
@@ -108,17 +111,140 @@ TEST_F(CalibrationTest, ReadsIntrinsicsAndExtrinsicsOfTheStereoCalibSample) {
   EXPECT_LT(cv::norm(parts.P2 - whole.P2), 1e-9);
   EXPECT_LT(cv::norm(parts.R1 - whole.R1), 1e-9);
   EXPECT_EQ(message([&] { read_calibration(files); }),
-            files[0] + " + " + files[1] + ": image_width and image_height are missing");
+            files[0] + " + " + files[1] + ": states no image size; give it with --size");
 }
 
 TEST_F(CalibrationTest, ARectifiedPairNeedsNothingButItsSize) {
   const Calibration c =
       read_calibration({write("c.yml", "%YAML:1.0\n---\ncamera_model: rectified\nimage_size: [640, 480]\n")});
   EXPECT_EQ(c.size.width, 640);
-  EXPECT_FALSE(c.metric());
+  EXPECT_FALSE(c.geometry);
+}
+
+constexpr const char* kRectifiedHead = "%YAML:1.0\n---\ncamera_model: rectified\nimage_size: [640, 480]\n";
+
+std::string matrix_entry(const std::string& name, int rows, int columns, const std::string& data) {
+  return name + ": !!opencv-matrix\n   rows: " + std::to_string(rows) +
+         "\n   cols: " + std::to_string(columns) + "\n   dt: d\n   data: [ " + data + " ]\n";
+}
+
+TEST_F(CalibrationTest, CamerasAndTOfARectifiedPairAreItsProjections) {
+  const std::string k2 = matrix_entry("K2", 3, 3, "500, 0, 330, 0, 500, 240, 0, 0, 1");
+  const auto with_t = [&](const std::string& t) {
+    return write("d.yml", kRectifiedHead + matrix_entry("K1", 3, 3, "500, 0, 320, 0, 500, 240, 0, 0, 1") +
+                              k2 + "T: [" + t + "]\n");
+  };
+  // A rectified right camera 0.1 to the right: T = (-0.1, 0, 0). doffs = 330 - 320.
+  const Calibration c = read_calibration({with_t("-0.1, 0.0005, 0")});
+  EXPECT_DOUBLE_EQ(c.geometry->baseline, 0.1);
+  EXPECT_DOUBLE_EQ(c.geometry->doffs(), 10);
+  const std::string file = with_t("-0.1, 0.01, 0");
+  EXPECT_EQ(message([&] { read_calibration({file}); }),
+            file +
+                ": T: the right camera lies -0.01 below and 0 before the left one, more than 2 % of the "
+                "baseline of "
+                "0.1: rows do not match");
   SyntheticPair pair;
   pair.model = "rectified";
-  EXPECT_NEAR(read_calibration({write("d.yml", pair.text())}).baseline(), 0.1, 1e-3);
+  EXPECT_EQ(message([&] { read_calibration({write("c.yml", pair.text())}); }),
+            path("c.yml") + ": R: turns the right camera against the left one, but the images are rectified");
+}
+
+TEST_F(CalibrationTest, QAloneSufficesForACloud) {
+  // cx = 320, cy = 240, f = 500, baseline = 1 / 8 = 0.125, cx_right - cx = 4 = Q(3,3) * baseline.
+  const std::string q = matrix_entry("Q", 4, 4, "1, 0, 0, -320, 0, 1, 0, -240, 0, 0, 0, 500, 0, 0, 8, 32");
+  for (const std::string& text : {kRectifiedHead + q, "%YAML:1.0\n---\n" + q}) {
+    const Calibration c = read_calibration({write("q.yml", text)}, {640, 480});
+    EXPECT_EQ(c.model, LensModel::kRectified);
+    ASSERT_TRUE(c.geometry);
+    EXPECT_DOUBLE_EQ(c.geometry->baseline, 0.125);
+    EXPECT_DOUBLE_EQ(c.geometry->focal_x, 500);
+    EXPECT_DOUBLE_EQ(c.geometry->focal_y, 500);
+    EXPECT_DOUBLE_EQ(c.geometry->cx_left, 320);
+    EXPECT_DOUBLE_EQ(c.geometry->cx_right, 324);
+    EXPECT_DOUBLE_EQ(c.geometry->cy, 240);
+  }
+}
+
+TEST_F(CalibrationTest, WhatContradictsTheProjectionsIsNamed) {
+  const std::string p1 = matrix_entry("P1", 3, 4, "500, 0, 320, 0, 0, 500, 240, 0, 0, 0, 1, 0");
+  const std::string p2 =
+      matrix_entry("P2", 3, 4, "500, 0, 320, -50, 0, 500, 240, 0, 0, 0, 1, 0");  // 50 / 500 = 0.1
+  const auto line = [&](const std::string& rest) {
+    const std::string file = write("p.yml", kRectifiedHead + p1 + p2 + rest);
+    const std::string text = message([&] { read_calibration({file}); });
+    return text.empty() ? text : text.substr(file.size() + 2);
+  };
+  EXPECT_EQ(line(""), "");
+  EXPECT_EQ(line("T: [-0.1, 0, 0]\n"), "");
+  EXPECT_EQ(line("T: [-100, 0, 0]\n"),
+            "T: contradicts the projections: it puts the right camera 100 to the right of the left one, they "
+            "put it "
+            "0.1; is one of them in another unit?");
+  EXPECT_EQ(line(matrix_entry("Q", 4, 4, "1, 0, 0, -320, 0, 1, 0, -240, 0, 0, 0, 500, 0, 0, 10, 0")), "");
+  EXPECT_EQ(line(matrix_entry("Q", 4, 4, "2, 0, 0, -640, 0, 2, 0, -480, 0, 0, 0, 1000, 0, 0, 20, 0")), "")
+      << "Q has a common factor";
+  EXPECT_EQ(line(matrix_entry("Q", 4, 4, "1, 0, 0, -320, 0, 1, 0, -240, 0, 0, 0, 500, 0, 0, 20, 0")),
+            "Q: Q contradicts the projections: baseline 0.05 in Q, 0.1 in them");
+  EXPECT_EQ(line(matrix_entry("Q", 4, 4, "1, 0, 0, -320, 0, 1, 0, -240, 0, 0, 0, 700, 0, 0, 10, 0")),
+            "Q: Q contradicts the projections: focal length 700 in Q, 500 in them");
+  EXPECT_EQ(line(matrix_entry("Q", 4, 4, "1, 0, 0, -320, 0, 1, 0, -250, 0, 0, 0, 500, 0, 0, 10, 0")),
+            "Q: Q contradicts the projections: principal point's row 250 in Q, 240 in them");
+  EXPECT_EQ(line(matrix_entry("Q", 4, 4, "1, 0, 0, -320, 0, 1, 0, -240, 0, 0, 0, 500, 0, 0, 10, 50")),
+            "Q: Q contradicts the projections: distance of the principal points 5 in Q, 0 in them");
+  const std::string missing = write("one.yml", kRectifiedHead + p1);
+  EXPECT_EQ(message([&] { read_calibration({missing}); }), missing + ": P2 is missing");
+}
+
+TEST_F(CalibrationTest, RotationsMustAgreeWithR) {
+  SyntheticPair pair;
+  const Calibration c = read_calibration({write("c.yml", pair.text())});
+  cv::FileStorage file(".yml", cv::FileStorage::WRITE | cv::FileStorage::MEMORY);
+  file << "R1" << cv::Mat(c.R1.t()) << "R2" << cv::Mat(c.R2) << "P1" << cv::Mat(c.P1) << "P2"
+       << cv::Mat(c.P2);
+  const std::string text = file.releaseAndGetString();
+  const std::string swapped = write("d.yml", pair.text() + text.substr(text.find("R1")));
+  EXPECT_EQ(message([&] { read_calibration({swapped}); }),
+            swapped + ": R: contradicts R1 and R2: R2 R is not R1");
+}
+
+TEST_F(CalibrationTest, ModelsThatContradictEachOtherAreRefused) {
+  const auto line = [&](const std::string& models, const SyntheticPair& pair = {}) {
+    return changed("camera_model", models, pair);
+  };
+  EXPECT_EQ(line("camera_model: pinhole\ndistortion_model: equidistant"),
+            "camera_model: pinhole contradicts distortion_model: equidistant; a lens with equidistant "
+            "distortion is "
+            "fisheye_equidistant, one with radial-tangential distortion pinhole_radtan, and rectified images "
+            "have none");
+  EXPECT_EQ(line("distortion_model: plumb_bob\ncamera_model: fisheye")
+                .rfind("camera_model: fisheye contradicts", 0),
+            0U);
+  EXPECT_EQ(line("camera_model: rectified\ndistortion_model: plumb_bob")
+                .rfind("camera_model: rectified contradicts", 0),
+            0U);
+  EXPECT_EQ(line("camera_model: pinhole\ndistortion_model: plumb_bob"), "");
+  EXPECT_EQ(line("camera_model: fisheye\ndistortion_model: equidistant", test::fisheye_pair()), "");
+  EXPECT_EQ(line("distortion_model: omni"),
+            "distortion_model: \"omni\" is not plumb_bob, rational_polynomial or equidistant");
+  EXPECT_EQ(line("camera_model: pinhole\ndistortion_model: 3"), "distortion_model is not a text");
+}
+
+TEST_F(CalibrationTest, EntriesInSeveralPlacesMustBeTheSame) {
+  const std::string text = SyntheticPair().text();
+  const std::string first = write("a.yml", text);
+  const std::string second = write("b.yml", "%YAML:1.0\n---\nT: [-0.2, 0, 0]\n");
+  EXPECT_EQ(message([&] { read_calibration({first, second}); }), first + ": T contradicts " + second + ": T");
+  const std::string other = write("d.yml", text + "imageSize: [641, 480]\n");
+  EXPECT_EQ(message([&] { read_calibration({other}); }),
+            other + ": imageSize: 641x480 contradicts image_width, image_height: 640x480");
+  const std::string twice = write("e.yml", text + "T: [-0.2, 0, 0]\n");
+  EXPECT_EQ(message([&] { read_calibration({twice}); }), twice + ": T occurs twice");
+  const std::string unit = write("f.yml", "%YAML:1.0\n---\nT_unit: mm\n");
+  EXPECT_EQ(message([&] {
+              read_calibration({first, unit});
+            }),
+            unit + ": T_unit contradicts the same entry elsewhere: \"mm\" and \"m\"");
 }
 
 TEST_F(CalibrationTest, MissingOrGarbledEntriesAreNamed) {
@@ -151,26 +277,77 @@ TEST_F(CalibrationTest, MissingOrGarbledEntriesAreNamed) {
   EXPECT_EQ(changed("camera_model", "camera_model: 3"), "camera_model is not a text");
   EXPECT_EQ(changed("image_width", "image_width: -5"),
             "image_width, image_height: -5x480 is not an image size");
+  EXPECT_EQ(changed("image_width", "image_width: 1e308"),
+            "image_width, image_height: 1e+308x480 is not an image size");
+  EXPECT_EQ(changed("image_width", "image_width: 640.5"),
+            "image_width, image_height: 640.5x480 is not an image size");
   EXPECT_EQ(changed("T_unit", "R1: [0, 0, 0]"), "R2 is missing");
 }
 
 TEST_F(CalibrationTest, ImpossibleRigsAreNamed) {
-  EXPECT_EQ(changed("T", "T: [0.1, 0, 0]"),
-            "P2: the right camera is not to the right of the left one; are the images exchanged?");
-  EXPECT_EQ(changed("T", "T: [0, -0.1, 0]"),
-            "P2: the cameras are above each other; only side by side cameras are supported");
+  EXPECT_EQ(
+      changed("T", "T: [0.1, 0, 0]"),
+      "the rectification of R and T: the right camera lies 0.1 to the left of the left one; are the images "
+      "exchanged?");
+  EXPECT_EQ(
+      changed("T", "T: [0, -0.1, 0]"),
+      "T: the cameras are above each other, 0.1 against 0 beside; only side by side cameras are supported");
+  EXPECT_EQ(
+      changed("T", "T: [0, -0.1, 0]", test::fisheye_pair()),
+      "T: the cameras are above each other, 0.1 against 0 beside; only side by side cameras are supported");
 }
 
 TEST_F(CalibrationTest, WhatIsNoCalibrationIsNamed) {
-  for (const char* text :
-       {"", "hello", "%YAML:1.0\n---\nK1: [1, 2", "<?xml version=\"1.0\"?><a><b>", "{\"K1\": ["}) {
-    const std::string file = write("bad.yml", text);
-    const std::string line = message([&] { read_calibration({file}); });
-    EXPECT_EQ(line.find(file + ": not an OpenCV YAML, XML or JSON file"), 0U) << "[" << text << "] " << line;
-    EXPECT_EQ(line.find('\n'), std::string::npos) << line;
+  for (const char* text : {"", "hello", "a: b\n", "\x89PNG\r\n\x1a\n"}) {
+    const std::string file = write("bad.txt", text);
+    EXPECT_EQ(
+        message([&] { read_calibration({file}); }),
+        file +
+            ": not a calibration of a known format: OpenCV FileStorage (YAML with the first line %YAML:1.0, "
+            "XML or JSON), ROS camera_info (two files), Kalibr camchain, KITTI calib.txt or "
+            "calib_cam_to_cam.txt, Middlebury calib.txt");
   }
   EXPECT_EQ(message([&] { read_calibration({path("none.yml")}); }),
             path("none.yml") + ": cannot read: No such file or directory");
+}
+
+TEST_F(CalibrationTest, OpenCvsReasonAndLineAreTold) {
+  const auto line = [&](const std::string& text) {
+    const std::string file = write("bad.yml", text);
+    const std::string whole = message([&] { read_calibration({file}); });
+    const std::string prefix = file + ": not an OpenCV YAML, XML or JSON file: ";
+    EXPECT_EQ(whole.find(prefix), 0U) << whole;
+    EXPECT_EQ(whole.find('\n'), std::string::npos) << whole;
+    return whole.substr(std::min(prefix.size(), whole.size()));
+  };
+  EXPECT_EQ(line("%YAML:1.0\n---\nK1:\t[1, 2]\n"), "line 3: Tabs are prohibited in YAML!");
+  EXPECT_EQ(line("%YAML:1.0\n---\nR: [1, 2, 3]\nK1: [1, 2\n"), "line 4: Missing , between the elements");
+  EXPECT_EQ(line("%YAML:1.0\n---\nK1: 1\n  K2: 2\n"), "line 4: Incorrect indentation");
+  EXPECT_EQ(line("<?xml version=\"1.0\"?>\n<opencv_storage>\n<K1>1</K2>\n</opencv_storage>\n"),
+            "line 3: Mismatched closing tag");
+  EXPECT_EQ(line("{\"K1\": [1, 2}"), "line 1: Unexpected character");
+  EXPECT_EQ(line("%YAML:1.0\n---\n- 1\n- 2\n"), "it has no named entries");
+}
+
+TEST_F(CalibrationTest, AMissingFirstLineIsNamed) {
+  const std::string text = SyntheticPair().text();
+  for (const char* head : {"", "---\n", "# mine\n%YAML:1.0\n---\n"}) {
+    const std::string file = write("c.yml", head + text.substr(text.find("camera_model")));
+    EXPECT_EQ(
+        message([&] { read_calibration({file}); }),
+        file +
+            ": looks like OpenCV's YAML, but its first line is not %YAML:1.0, without which OpenCV does not "
+            "read it");
+  }
+}
+
+TEST_F(CalibrationTest, HeadsAndLineEndsOfOtherSystemsAreRead) {
+  const Calibration plain = read_calibration({write("c.yml", SyntheticPair().text())});
+  std::string text = SyntheticPair().text();
+  for (std::size_t end = 0; (end = text.find('\n', end)) != std::string::npos; end += 2)
+    text.insert(end, "\r");
+  EXPECT_EQ(read_calibration({write("d.yml", text)}).P2, plain.P2);
+  EXPECT_EQ(read_calibration({write("e.yml", "\xef\xbb\xbf" + text)}).P2, plain.P2);
 }
 
 TEST_F(CalibrationTest, TheImagesMustHaveItsSize) {

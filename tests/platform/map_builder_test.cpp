@@ -182,7 +182,7 @@ TEST_F(MapBuilder, FitsEveryLensOfTheTestsIntoTheWindow) {
     EXPECT_DOUBLE_EQ(found->calibration.P1(0, 0), found->calibration.P2(0, 0));
     EXPECT_DOUBLE_EQ(found->calibration.P1(1, 2), found->calibration.P2(1, 2));
     EXPECT_DOUBLE_EQ(found->calibration.P1(0, 2), found->calibration.P2(0, 2));
-    EXPECT_NEAR(found->calibration.baseline(), c.baseline(), 1e-9);
+    EXPECT_NEAR(found->calibration.geometry->baseline, c.geometry->baseline, 1e-9);
     const RectificationMap map = build_map(found->calibration, {});
     const EncodedMap encoded = encode(map);
     EXPECT_LE(encoded.bytes_per_pixel(), 1.0);
@@ -222,7 +222,7 @@ TEST_F(MapBuilder, FitMovesTheImagesApartOnlyWhenNothingElseFits) {
   EXPECT_NE(found->text().find("px to every disparity"), std::string::npos) << found->text();
   // A point at 10 units: its depth comes out of the new Q.
   const double disparity = 500 * 0.1 / 10 + found->shift_left_x - found->shift_right_x;
-  const cv::Vec4d point = found->calibration.Q * cv::Vec4d(0, 0, disparity, 1);
+  const cv::Vec4d point = disparity_to_depth(*found->calibration.geometry) * cv::Vec4d(0, 0, disparity, 1);
   EXPECT_NEAR(point[2] / point[3], 10, 1e-6);
 }
 
@@ -263,9 +263,8 @@ TEST_F(MapBuilder, SaysWhenNothingFitsAtAll) {
 }
 
 TEST_F(MapBuilder, ARectifiedPairHasTheIdentityMap) {
-  SyntheticPair pair;
-  pair.model = "rectified";
-  const Calibration c = calibration(pair);
+  Calibration c = calibration({});
+  c.model = LensModel::kRectified;
   EXPECT_TRUE(build_map(c, {}).offsets == identity_map(640, 480).offsets);
   EXPECT_EQ(fit(c, {})->zoom, 1);
 }

@@ -157,7 +157,10 @@ TEST_F(MapCommand, BadRawMapsAreNamed) {
   EXPECT_EQ(read(head + matrix("left_x", kTwo) + matrix("left_y", kOne) + matrix("right_x", kTwo) +
                  matrix("right_y", kTwo)),
             ": left_y has 1x1 pixels, left_x has 2x1");
-  EXPECT_EQ(read("hello"), ": not an OpenCV YAML, XML or JSON file: Unsupported file storage format");
+  EXPECT_EQ(read("hello"),
+            ": not an OpenCV YAML, XML or JSON file: the first line of OpenCV's YAML is %YAML:1.0, XML "
+            "begins with <?xml, "
+            "JSON with {");
   EXPECT_EQ(message([&] {
               read_raw_maps({"a", "b"});
             }),

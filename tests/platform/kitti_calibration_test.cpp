@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+// KITTI's files, of rectified and of raw images. The numbers are made up, but for the pair of colour cameras.
+#include "platform/input/kitti_calibration.hpp"
+
+#include <gtest/gtest.h>
+
+#include <opencv2/core.hpp>
+
+#include "platform/input/kitti_raw_calibration.hpp"
+#include "platform/input/read_calibration.hpp"
+#include "tests/platform/test_calibrations.hpp"
+
+namespace parallax {
+namespace kitti_calibration_test {
+
+using test::message;
+
+std::string projection(const std::string& name, const std::string& x, const std::string& y = "0",
+                       const std::string& z = "0") {
+  return name + ": 7.070493e+02 0.000000e+00 6.040814e+02 " + x + " 0.000000e+00 7.070493e+02 1.805066e+02 " +
+         y + " 0.000000e+00 0.000000e+00 1.000000e+00 " + z + "\n";
+}
+
+std::string rectified_text() {
+  return projection("P0", "0") + projection("P1", "-3.535246500000e+02") +
+         projection("P2", "4.575831e+01", "-3.454157e-01", "4.981016e-03") +
+         projection("P3", "-3.341081e+02", "2.330660e+00", "3.201153e-03") +
+         "R0_rect: 1 0 0 0 1 0 0 0 1\nTr_velo_to_cam: 0 -1 0 0\n";
+}
+
+// Cameras with parallel axes, 0.5 m apart; raw images of 300x200, rectified ones of 280x160.
+std::string raw_text() {
+  std::string text = "calib_time: 09-Jan-2012 13:57:47\ncorner_dist: 9.950000e-02\n";
+  for (const auto& [number, x] : {std::pair{"00", "0"}, {"01", "-1.000000e+02"}}) {
+    const std::string n = number;
+    text += "S_" + n + ": 3.000000e+02 2.000000e+02\n";
+    text += "K_" + n + ": 2.1e+02 0 1.5e+02 0 2.2e+02 1.0e+02 0 0 1\n";
+    text += "D_" + n + ": -3.7e-01 2.0e-01 1.0e-03 5.0e-04 -7.2e-02\n";
+    text += "R_" + n + ": 1 0 0 0 1 0 0 0 1\n";
+    text += "T_" + n + ": " + (n == "00" ? "0" : "-5.0e-01") + " 0 0\n";
+    text += "S_rect_" + n + ": 2.800000e+02 1.600000e+02\n";
+    text += "R_rect_" + n + ": 1 0 0 0 1 0 0 0 1\n";
+    text += "P_rect_" + n + ": 2.0e+02 0 1.4e+02 " + x + " 0 2.0e+02 8.0e+01 0 0 0 1 0\n";
+  }
+  return text;
+}
+
+class KittiCalibration : public test::FolderTest {
+ protected:
+  Calibration read(const std::string& text, const ImageSize& images,
+                   const std::optional<CameraPair>& cameras = std::nullopt) const {
+    return read_calibration({write("calib.txt", text)}, images, cameras);
+  }
+  std::string line(const std::string& text, const ImageSize& images = {1226, 370},
+                   const std::optional<CameraPair>& cameras = std::nullopt) const {
+    const std::string whole = message([&] { read(text, images, cameras); });
+    const std::string prefix = path("calib.txt") + ": ";
+    EXPECT_TRUE(whole.empty() || whole.find(prefix) == 0) << whole;
+    EXPECT_EQ(whole.find('\n'), std::string::npos) << whole;
+    return whole.empty() ? whole : whole.substr(prefix.size());
+  }
+  static std::string replaced(std::string text, const std::string& what, const std::string& with) {
+    const std::size_t at = text.find(what);
+    EXPECT_NE(at, std::string::npos) << what;
+    return text.replace(at, what.size(), with);
+  }
+};
+
+TEST_F(KittiCalibration, TheGreyPairIfNotSaidOtherwise) {
+  const Calibration c = read(rectified_text(), {1226, 370});
+  EXPECT_EQ(c.model, LensModel::kRectified);
+  EXPECT_EQ(c.unit, "m");
+  EXPECT_EQ(c.size.width, 1226) << "that of the images, as the file has none";
+  // 353.52465 / 707.0493 = 0.5.
+  EXPECT_DOUBLE_EQ(c.geometry->baseline, 0.5);
+  EXPECT_DOUBLE_EQ(c.geometry->cy, 180.5066);
+  EXPECT_DOUBLE_EQ(c.geometry->doffs(), 0);
+}
+
+TEST_F(KittiCalibration, TheColourPairIsRelativeToCameraZero) {
+  // (45.75831 + 334.1081) / 707.0493 = 0.5372559 m. The right one is 2.676 / 707.0493 = 3.8 mm above, 0.7 %
+  // of that.
+  const Calibration c = read(rectified_text(), {1226, 370}, CameraPair{2, 3});
+  EXPECT_NEAR(c.geometry->baseline, 0.5372559, 1e-7);
+  EXPECT_NEAR(c.geometry->focal_x * c.geometry->baseline / 20, 18.99332, 1e-5);
+}
+
+TEST_F(KittiCalibration, WaysToWriteIt) {
+  std::string text = rectified_text();
+  for (std::size_t end = 0; (end = text.find('\n', end)) != std::string::npos; end += 2)
+    text.insert(end, "\r");
+  EXPECT_DOUBLE_EQ(read(text, {1226, 370}).geometry->baseline, 0.5);
+  EXPECT_DOUBLE_EQ(read("\xef\xbb\xbf" + rectified_text(), {1226, 370}).geometry->baseline, 0.5);
+  EXPECT_DOUBLE_EQ(
+      read("\n" + replaced(rectified_text(), "P1: 7", "P1:\t  7"), {1226, 370}).geometry->baseline, 0.5);
+  // Only the pair that is used needs to be there.
+  EXPECT_NEAR(read(rectified_text().substr(rectified_text().find("P2")), {1226, 370}, CameraPair{2, 3})
+                  .geometry->baseline,
+              0.5372559, 1e-7);
+}
+
+TEST_F(KittiCalibration, DamageIsNamed) {
+  const std::string text = rectified_text();
+  EXPECT_EQ(line(text.substr(text.find("P1"))), "P0 is missing");
+  EXPECT_EQ(line(text.substr(0, text.find("P1"))), "P1 is missing");
+  EXPECT_EQ(line(replaced(text, "P1: 7.070493e+02", "P1:")), "P1 has 11 numbers, 12 expected");
+  EXPECT_EQ(line(replaced(text, "P1: 7.070493e+02", "P1: 7,5x")), "P1: \"5x\" is not a number");
+  EXPECT_EQ(line(replaced(text, "P1: 7.070493e+02", "P1: nan")),
+            "P1 holds a value that is not a finite number");
+  EXPECT_EQ(line(replaced(text, "P1: 7.070493e+02", "P1: 1e400")),
+            "P1 holds a value that is not a finite number");
+  EXPECT_EQ(line(replaced(text, "P1: 7.070493e+02", "P1: -7.070493e+02")),
+            "P0, P1: focal lengths -707.0493 and 707.0493 px; those of a rectified image are from 1 to "
+            "10000000 px");
+  EXPECT_EQ(line(replaced(text, "P1", "P0")), "P0 occurs twice, with other numbers");
+  EXPECT_EQ(line(text, {}), "states no image size; give it with --size");
+  EXPECT_EQ(line(text, {1226, 370}, CameraPair{1, 0}),
+            "P1, P0: the right camera lies 0.5 to the left of the left one; are the images exchanged?");
+  const std::string file = write("calib.txt", text);
+  EXPECT_EQ(message([&] {
+              read_calibration({file, file}, {1226, 370});
+            }),
+            file + " + " + file + ": KITTI calib.txt is one file for both cameras, not 2");
+}
+
+TEST_F(KittiCalibration, TheImagesSizeTellsRawFromRectified) {
+  // 100 / 200 = 0.5 m, either way.
+  const Calibration rectified = read(raw_text(), {280, 160});
+  EXPECT_EQ(rectified.model, LensModel::kRectified);
+  EXPECT_DOUBLE_EQ(rectified.geometry->baseline, 0.5);
+  for (const ImageSize& images : {ImageSize{300, 200}, ImageSize{}}) {
+    const Calibration raw = read(raw_text(), images);
+    EXPECT_EQ(raw.model, LensModel::kPinhole);
+    EXPECT_EQ(raw.size.width, 300);
+    EXPECT_EQ(raw.size.height, 200);
+    EXPECT_EQ(raw.left.camera, cv::Matx33d(210, 0, 150, 0, 220, 100, 0, 0, 1));
+    EXPECT_EQ(raw.left.distortion, (std::vector<double>{-0.37, 0.2, 0.001, 0.0005, -0.072}));
+    EXPECT_EQ(raw.P2, cv::Matx34d(200, 0, 140, -100, 0, 200, 80, 0, 0, 0, 1, 0));
+    EXPECT_DOUBLE_EQ(raw.geometry->baseline, 0.5);
+  }
+  EXPECT_EQ(line(raw_text(), {640, 480}),
+            "the calibration is for raw images of 300x200 or rectified ones of 280x160, these have 640x480");
+}
+
+TEST_F(KittiCalibration, DamageOfARawFileIsNamed) {
+  EXPECT_EQ(line(replaced(raw_text(), "R_rect_01", "X"), {300, 200}), "R_rect_01 is missing");
+  EXPECT_EQ(line(replaced(raw_text(), "R_rect_01", "X"), {280, 160}), "") << "rectified images need none";
+  EXPECT_EQ(line(replaced(raw_text(), "R_rect_01: 1", "R_rect_01: 3"), {300, 200}),
+            "R_rect_01: not a rotation matrix");
+  EXPECT_EQ(line(replaced(raw_text(), "K_01", "X"), {300, 200}), "K_01 is missing");
+  EXPECT_EQ(line(replaced(raw_text(), "K_01: 2.1e+02", "K_01: -1"), {300, 200}),
+            "K_01: not a camera matrix: focal lengths -1 and 220 px, last element 1");
+  EXPECT_EQ(line(replaced(raw_text(), "D_01: -3.7e-01", "D_01:"), {300, 200}),
+            "D_01 has 4 numbers, 5 expected");
+  EXPECT_EQ(line(replaced(raw_text(), "S_01: 3", "S_01: 4"), {300, 200}),
+            "S_01: 400x200, but S_00 is 300x200; the images of a pair have one size");
+  EXPECT_EQ(line(replaced(raw_text(), "S_00: 3.000000e+02", "S_00: 3.5"), {300, 200}),
+            "S_00: 3.5x200 is not an image size");
+  EXPECT_EQ(line(raw_text(), {280, 160}, CameraPair{2, 3}), "P_rect_02 is missing");
+}
+
+}  // namespace kitti_calibration_test
+}  // namespace parallax
