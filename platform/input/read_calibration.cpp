@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdio>
 
+#include "platform/input/euroc_calibration.hpp"
 #include "platform/input/kalibr_calibration.hpp"
 #include "platform/input/kitti_calibration.hpp"
 #include "platform/input/kitti_raw_calibration.hpp"
@@ -17,6 +18,8 @@
 
 namespace parallax {
 namespace {
+
+constexpr std::size_t kLargestCalibration = std::size_t{1} << 24;
 
 struct CalibrationFormat {
   const char* name;
@@ -31,6 +34,7 @@ const std::array kFormats{
     CalibrationFormat{"Middlebury calib.txt", is_middlebury_calibration, read_middlebury_calibration, false,
                       false},
     CalibrationFormat{"Kalibr camchain", is_kalibr_calibration, read_kalibr_calibration, false, true},
+    CalibrationFormat{"EuRoC sensor.yaml", is_euroc_calibration, read_euroc_calibration, true, false},
     CalibrationFormat{"ROS camera_info", is_ros_calibration, read_ros_calibration, true, false},
     CalibrationFormat{"KITTI calib_cam_to_cam.txt", is_kitti_raw_calibration, read_kitti_raw_calibration,
                       false, true},
@@ -41,7 +45,7 @@ const std::array kFormats{
 // YAML with OpenCV's entries, but without its first line.
 bool lacks_head(const TopLevel& file, const std::string& text) {
   if (text.find("!!opencv-matrix") != std::string::npos) return true;
-  for (const char* name : {"camera_model", "K1", "M1", "cameraMatrix1", "R1", "P1", "Q", "T"}) {
+  for (const char* name : {"K1", "M1", "cameraMatrix1", "R1", "P1", "Q", "T_unit"}) {
     if (file.has(name)) return true;
   }
   return false;
@@ -61,7 +65,8 @@ const CalibrationFormat& format_of(const CalibrationRequest::File& file) {
   throw UserError(
       fmt::format("{}: not a calibration of a known format: OpenCV FileStorage (YAML with the first line "
                   "%YAML:1.0, XML or JSON), "
-                  "ROS camera_info (two files), Kalibr camchain, KITTI calib.txt or calib_cam_to_cam.txt, "
+                  "ROS camera_info or EuRoC sensor.yaml (two files), Kalibr camchain, KITTI calib.txt or "
+                  "calib_cam_to_cam.txt, "
                   "Middlebury calib.txt",
                   file.path));
 }
@@ -72,7 +77,8 @@ Calibration read_calibration(const std::vector<std::string>& paths, const ImageS
                              const std::optional<CameraPair>& cameras) {
   CalibrationRequest request;
   request.images = images;
-  for (const std::string& path : paths) request.files.push_back({path, read_text_file(path)});
+  for (const std::string& path : paths)
+    request.files.push_back({path, read_text_file(path, kLargestCalibration)});
   const CalibrationFormat& format = format_of(request.files.front());
   for (const CalibrationRequest::File& file : request.files) {
     const CalibrationFormat& other = format_of(file);
@@ -99,7 +105,7 @@ std::optional<CameraPair> camera_pair(const std::string& option, const std::stri
   if (text.empty()) return std::nullopt;
   CameraPair pair;
   char rest = 0;
-  if (std::sscanf(text.c_str(), "%2d,%2d%c", &pair.left, &pair.right, &rest) != 2 || pair.left < 0 ||
+  if (std::sscanf(text.c_str(), "%3d,%3d%c", &pair.left, &pair.right, &rest) != 2 || pair.left < 0 ||
       pair.right < 0 || pair.left == pair.right) {
     throw UserError(fmt::format("{}: \"{}\" is not a left and a right camera such as 2,3", option, text));
   }

@@ -91,7 +91,9 @@ RectificationChoice choose_rectification(const RunOptions& options, const Offset
   std::optional<Calibration> calibration = source.calibration();
   if (!options.calibration.empty()) {
     calibration = given_calibration(options, range, source, notice);
-    note_least_disparity(*calibration, notice);
+    if (options.point_cloud && !options.timing_only && !options.out.empty()) {
+      note_least_disparity(*calibration, notice);
+    }
   }
   RectificationChoice choice;
   if (calibration && calibration->geometry) choice.q = disparity_to_depth(*calibration->geometry);

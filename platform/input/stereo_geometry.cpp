@@ -18,6 +18,7 @@ constexpr double kFocalAgreement = 1e-4;  // 0.1 px at 1000 px from the principa
 constexpr double kCentreAgreement = 0.1;  // px
 constexpr double kLevel = 0.02;           // of the baseline
 constexpr double kNoBaseline = 1e-9;      // px * unit, and of the fourth columns themselves
+constexpr double kLargestBaseline = 1e9;  // in any unit
 constexpr double kZero = 1e-9;            // for elements that are zero by definition
 constexpr double kQAgreement = 1e-3;      // for files with four digits and more
 
@@ -90,6 +91,9 @@ void check_baseline(const cv::Matx34d& left, const cv::Matx34d& right, const std
                               "exchanged?",
                               -baseline));
   }
+  if (baseline > kLargestBaseline) {
+    refuse(where, fmt::format("a baseline of {:.4g}: the calibration is implausible", baseline));
+  }
   if (std::abs(below) > kLevel * baseline || std::abs(before) > kLevel * baseline) {
     refuse(where, fmt::format("the right camera lies {:.4g} below and {:.4g} before the left one, more than "
                               "{} % of the baseline of {:.4g}: rows do not match",
@@ -151,11 +155,12 @@ StereoGeometry geometry_of(const cv::Matx44d& stated, const std::string& where) 
            "not of the form that cv::stereoRectify gives: "
            "1 0 0 -cx; 0 1 0 -cy; 0 0 0 f; 0 0 1/baseline (cx_right - cx)/baseline");
   }
-  if (!(q(3, 2) > 0) || !std::isfinite(1 / q(3, 2))) {
+  if (!(q(3, 2) >= 1 / kLargestBaseline)) {
     refuse(where,
-           fmt::format("element (3,2), 1/baseline, is {}; with a right camera to the right of the left "
-                       "one it is positive",
-                       q(3, 2)));
+           fmt::format(
+               "element (3,2), 1/baseline, is {}; with a right camera to the right of the left one it is {} "
+               "and more",
+               q(3, 2), 1 / kLargestBaseline));
   }
   StereoGeometry geometry;
   geometry.focal_x = q(2, 3);

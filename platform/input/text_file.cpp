@@ -15,11 +15,10 @@
 namespace parallax {
 namespace {
 
-constexpr std::size_t kLargestText = std::size_t{1} << 30;
 constexpr int kGzipOnly = 16;  // added to the window's bits: no other format
 
 // The members of a gzip file one after the other, which may be several.
-std::string gunzip(std::vector<std::uint8_t>& bytes, const std::string& path) {
+std::string gunzip(std::vector<std::uint8_t>& bytes, const std::string& path, std::size_t largest) {
   z_stream stream{};
   inflateInit2(&stream, MAX_WBITS + kGzipOnly);
   const std::unique_ptr<z_stream, int (*)(z_stream*)> guard(&stream, inflateEnd);
@@ -33,12 +32,10 @@ std::string gunzip(std::vector<std::uint8_t>& bytes, const std::string& path) {
     stream.avail_out = chunk.size();
     state = inflate(&stream, Z_NO_FLUSH);
     text.append(chunk.data(), chunk.size() - stream.avail_out);
-    if (text.size() > kLargestText) {
-      throw UserError(fmt::format("{}: unpacks to more than {} bytes", path, kLargestText));
-    }
+    if (text.size() > largest) break;
     if (state == Z_STREAM_END && stream.avail_in > 0) state = inflateReset(&stream);
   }
-  if (state != Z_STREAM_END) {
+  if (state != Z_STREAM_END && text.size() <= largest) {
     throw UserError(fmt::format("{}: damaged gzip file: {}", path,
                                 state == Z_BUF_ERROR    ? "it ends too early"
                                 : stream.msg == nullptr ? "unknown"
@@ -49,10 +46,11 @@ std::string gunzip(std::vector<std::uint8_t>& bytes, const std::string& path) {
 
 }  // namespace
 
-std::string read_text_file(const std::string& path) {
+std::string read_text_file(const std::string& path, std::size_t largest) {
   std::vector<std::uint8_t> bytes = read_file(path);
   const bool packed = bytes.size() >= 2 && bytes[0] == 0x1f && bytes[1] == 0x8b;
-  std::string text = packed ? gunzip(bytes, path) : std::string(bytes.begin(), bytes.end());
+  std::string text = packed ? gunzip(bytes, path, largest) : std::string(bytes.begin(), bytes.end());
+  if (text.size() > largest) throw UserError(fmt::format("{}: a text of more than {} bytes", path, largest));
   if (text.compare(0, 3, "\xef\xbb\xbf") == 0) text.erase(0, 3);
   return text;
 }

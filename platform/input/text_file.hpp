@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 namespace parallax {
 
 /// The text of a file, unpacked when it is gzip (by content, not by name), without a byte order mark. Throws
-/// UserError when it cannot be read, is damaged, or unpacks to more than 1 GiB.
-std::string read_text_file(const std::string& path);
+/// UserError when it cannot be read, is damaged, or is larger than `largest` bytes when unpacked.
+std::string read_text_file(const std::string& path, std::size_t largest = std::size_t{1} << 30);
 
 }  // namespace parallax

@@ -304,11 +304,34 @@ TEST_F(CalibrationTest, WhatIsNoCalibrationIsNamed) {
         message([&] { read_calibration({file}); }),
         file +
             ": not a calibration of a known format: OpenCV FileStorage (YAML with the first line %YAML:1.0, "
-            "XML or JSON), ROS camera_info (two files), Kalibr camchain, KITTI calib.txt or "
+            "XML or JSON), ROS camera_info or EuRoC sensor.yaml (two files), Kalibr camchain, KITTI "
+            "calib.txt or "
             "calib_cam_to_cam.txt, Middlebury calib.txt");
   }
   EXPECT_EQ(message([&] { read_calibration({path("none.yml")}); }),
             path("none.yml") + ": cannot read: No such file or directory");
+}
+
+TEST_F(CalibrationTest, FilesOfSeveralFormatsAreRefused) {
+  const std::string opencv = write("a.yml", SyntheticPair().text());
+  const std::string kitti = write("b.txt", "P0: 1 2 3\n");
+  EXPECT_EQ(message([&] {
+              read_calibration({opencv, kitti});
+            }),
+            kitti + ": KITTI calib.txt, but " + opencv +
+                " is OpenCV FileStorage: one calibration is of one format");
+  EXPECT_EQ(message([&] { read_calibration({opencv}, {}, CameraPair{}); }),
+            opencv + ": OpenCV FileStorage has no numbered cameras that --cameras could choose from");
+}
+
+TEST_F(CalibrationTest, AChoiceOfCamerasIsTwoNumbers) {
+  EXPECT_FALSE(camera_pair("--cameras", ""));
+  EXPECT_EQ(camera_pair("--cameras", "2,3")->left, 2);
+  EXPECT_EQ(camera_pair("--cameras", "101,103")->right, 103);
+  for (const char* text : {"2", "2,", "2,2", "-1,2", "2,3,", "a,b", "2 3", "2,3.5"}) {
+    EXPECT_EQ(message([&] { camera_pair("--cameras", text); }),
+              std::string("--cameras: \"") + text + "\" is not a left and a right camera such as 2,3");
+  }
 }
 
 TEST_F(CalibrationTest, OpenCvsReasonAndLineAreTold) {

@@ -116,6 +116,12 @@ TEST(StereoGeometry, WithoutABaselineThereIsNoDepth) {
             "c: P1, P2: the right camera lies 0.05 to the left of the left one; are the images exchanged?");
 }
 
+TEST(StereoGeometry, ABaselineBeyondAllUnitsIsRefused) {
+  Projections p;
+  p.right(0, 3) = -1e308;
+  EXPECT_EQ(p.line(), "c: P1, P2: a baseline of 2e+305: the calibration is implausible");
+}
+
 TEST(StereoGeometry, WhatIsNoProjectionOfARectifiedPairIsRefused) {
   const auto with = [](int row, int column, double value) {
     Projections p;
@@ -208,12 +214,11 @@ TEST(StereoGeometry, AQOfAnotherFormIsRefused) {
   EXPECT_EQ(with(0, 1, 0.1), form);
   EXPECT_EQ(with(2, 2, 1), form);
   EXPECT_EQ(with(3, 1, std::numeric_limits<double>::quiet_NaN()), form);
-  EXPECT_EQ(with(3, 2, 0),
-            "c: Q: element (3,2), 1/baseline, is 0; with a right camera to the right of the left one it is "
-            "positive");
-  EXPECT_EQ(with(3, 2, -10),
-            "c: Q: element (3,2), 1/baseline, is -10; with a right camera to the right of the left one it is "
-            "positive");
+  for (const auto& [value, text] : {std::pair{0.0, "0"}, {-10.0, "-10"}, {1e-300, "1e-300"}}) {
+    EXPECT_EQ(with(3, 2, value),
+              std::string("c: Q: element (3,2), 1/baseline, is ") + text +
+                  "; with a right camera to the right of the left one it is 1e-09 and more");
+  }
   EXPECT_EQ(with(2, 3, -500),
             "c: Q: focal lengths -500 and -500 px; those of a rectified image are from 1 to 10000000 px");
   EXPECT_EQ(with(0, 3, 1e308),

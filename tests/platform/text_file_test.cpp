@@ -45,6 +45,11 @@ TEST_F(TextFile, DamageIsNamed) {
   changed[bytes.size() - 6] ^= 1;
   const std::string wrong = write("c.gz", changed);
   EXPECT_EQ(message([&] { read_text_file(wrong); }), wrong + ": damaged gzip file: incorrect data check");
+  const std::string bomb = pack("d.gz", std::string(1'000'000, 'x'));
+  EXPECT_EQ(message([&] { read_text_file(bomb, 999'999); }), bomb + ": a text of more than 999999 bytes");
+  EXPECT_EQ(read_text_file(bomb, 1'000'000).size(), 1'000'000U);
+  const std::string plain = write("e.txt", "12345");
+  EXPECT_EQ(message([&] { read_text_file(plain, 4); }), plain + ": a text of more than 4 bytes");
 }
 
 TEST_F(TextFile, PackedCalibrationsAreRead) {
