@@ -3,9 +3,10 @@
 
 #include <fmt/format.h>
 
-#include <exception>
 #include <set>
+#include <stdexcept>
 
+#include "platform/input/quoted_text.hpp"
 #include "platform/input/text_file.hpp"
 #include "tlm/error.hpp"
 
@@ -29,7 +30,12 @@ void check_begin(const std::string& text, const std::string& path) {
   if (begin == std::string::npos) {
     throw UserError(fmt::format("{}: not an OpenCV YAML, XML or JSON file: it is empty", path));
   }
-  if (text.compare(0, 5, "%YAML") == 0 || text.compare(0, 5, "<?xml") == 0 || text[begin] == '{') return;
+  const bool xml = text.compare(0, 5, "<?xml") == 0;
+  // OpenCV 4.6 reads on behind the end of an XML text that ends within a tag.
+  if (xml && text[text.find_last_not_of(" \t\r\n")] != '>') {
+    throw UserError(fmt::format("{}: not an OpenCV YAML, XML or JSON file: it ends too early", path));
+  }
+  if (text.compare(0, 5, "%YAML") == 0 || xml || text[begin] == '{') return;
   throw UserError(fmt::format(
       "{}: not an OpenCV YAML, XML or JSON file: the first line of OpenCV's YAML is %YAML:1.0, XML begins "
       "with <?xml, JSON with {{",
@@ -46,13 +52,16 @@ cv::FileStorage parse_file_storage(const std::string& text, const std::string& p
       std::set<std::string> names;
       for (const cv::FileNode& entry : file.root()) {
         if (!names.insert(entry.name()).second) {
-          throw UserError(fmt::format("{}: {} occurs twice", path, entry.name()));
+          throw UserError(fmt::format("{}: {} occurs twice", path, printable(entry.name())));
         }
       }
       return file;
     }
   } catch (const cv::Exception& error) {
-    throw UserError(fmt::format("{}: not an OpenCV YAML, XML or JSON file: {}", path, reason(error)));
+    throw UserError(
+        fmt::format("{}: not an OpenCV YAML, XML or JSON file: {}", path, printable(reason(error))));
+  } catch (const std::length_error&) {
+    throw UserError(fmt::format("{}: not an OpenCV YAML, XML or JSON file: an entry has no name", path));
   }
   throw UserError(fmt::format("{}: not an OpenCV YAML, XML or JSON file: it has no named entries", path));
 }

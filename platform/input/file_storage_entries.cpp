@@ -9,6 +9,7 @@
 #include <opencv2/core.hpp>
 
 #include "platform/input/file_storage.hpp"
+#include "platform/input/quoted_text.hpp"
 #include "tlm/error.hpp"
 
 namespace parallax {
@@ -124,8 +125,8 @@ std::string FileStorageEntries::text(const Names& names, const std::string& othe
     if (!place.node.isString()) throw UserError(place.name + " is not a text");
     const auto here = static_cast<std::string>(place.node);
     if (text && *text != here) {
-      throw UserError(
-          fmt::format("{} contradicts the same entry elsewhere: \"{}\" and \"{}\"", place.name, here, *text));
+      throw UserError(fmt::format("{} contradicts the same entry elsewhere: {} and {}", place.name,
+                                  in_quotes(here), in_quotes(*text)));
     }
     text = here;
   }

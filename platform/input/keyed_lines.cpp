@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "platform/input/number_text.hpp"
+#include "platform/input/quoted_text.hpp"
 #include "tlm/error.hpp"
 
 namespace parallax {
@@ -44,7 +45,7 @@ std::vector<double> KeyedLines::numbers(const std::string& name, std::size_t cou
   std::istringstream words(found->second.front());
   for (std::string word; words >> word;) {
     const std::optional<double> value = number_of(word);
-    if (!value) throw UserError(fmt::format("{}: \"{}\" is not a number", where(name), word));
+    if (!value) throw UserError(fmt::format("{}: {} is not a number", where(name), in_quotes(word)));
     if (!std::isfinite(*value)) throw UserError(where(name) + " holds a value that is not a finite number");
     numbers.push_back(*value);
   }

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "platform/input/file_storage_entries.hpp"
+#include "platform/input/quoted_text.hpp"
 #include "tlm/error.hpp"
 
 namespace parallax {
@@ -43,7 +44,7 @@ LensModel named_model(const FileStorageEntries& file, const EntryNames& entry_na
   if (name == "pinhole_radtan" || name == "pinhole") return LensModel::kPinhole;
   if (name == "fisheye_equidistant") return LensModel::kFisheye;
   if (const std::optional<LensModel> found = distortion_model(name)) return *found;
-  throw UserError(fmt::format("{}: \"{}\" is not {}", file.where(entry_name), name, known));
+  throw UserError(fmt::format("{}: {} is not {}", file.where(entry_name), in_quotes(name), known));
 }
 
 LensModel model_of(const FileStorageEntries& file) {
@@ -67,7 +68,7 @@ LensModel model_of(const FileStorageEntries& file) {
         fmt::format("{}: {} contradicts distortion_model: {}; a lens with equidistant distortion is "
                     "fisheye_equidistant, one "
                     "with radial-tangential distortion pinhole_radtan, and rectified images have none",
-                    file.where(kModelName), camera, distortion));
+                    file.where(kModelName), printable(camera), printable(distortion)));
   }
   return distorted;
 }

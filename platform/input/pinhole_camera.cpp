@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "platform/input/quoted_text.hpp"
 #include "tlm/error.hpp"
 
 namespace parallax {
@@ -18,14 +19,14 @@ ImageSize resolution(const YamlEntries& camera) {
 LensModel pinhole_distortion(const YamlEntries& camera) {
   const std::string projection = camera.text("camera_model");
   if (projection != "pinhole") {
-    throw UserError(
-        fmt::format("{}: \"{}\" is not supported, only pinhole", camera.where("camera_model"), projection));
+    throw UserError(fmt::format("{}: {} is not supported, only pinhole", camera.where("camera_model"),
+                                in_quotes(projection)));
   }
   const std::string name = camera.text("distortion_model");
   if (name == "none") return LensModel::kPinhole;
   if (const std::optional<LensModel> model = distortion_model(name)) return *model;
-  throw UserError(fmt::format("{}: \"{}\" is not supported, only radtan, equidistant and none",
-                              camera.where("distortion_model"), name));
+  throw UserError(fmt::format("{}: {} is not supported, only radtan, equidistant and none",
+                              camera.where("distortion_model"), in_quotes(name)));
 }
 
 StatedCalibration::StatedLens pinhole_lens(const YamlEntries& camera, const std::string& coefficients) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "platform/input/quoted_text.hpp"
 #include "platform/input/yaml_entries.hpp"
 #include "tlm/error.hpp"
 
@@ -65,8 +66,8 @@ LensModel model_of(const CameraInfo& info, const std::vector<double>& coefficien
   if (const std::optional<LensModel> model = distortion_model(name)) return *model;
   if ((name.empty() || name == "none" || name == "None") && all_zero(coefficients))
     return LensModel::kPinhole;
-  throw UserError(fmt::format("{}: \"{}\" is not plumb_bob, rational_polynomial or equidistant",
-                              info.entries.where("distortion_model"), name));
+  throw UserError(fmt::format("{}: {} is not plumb_bob, rational_polynomial or equidistant",
+                              info.entries.where("distortion_model"), in_quotes(name)));
 }
 
 // Some drivers write as many coefficients of a fisheye lens as of another one.

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "platform/input/number_text.hpp"
+#include "platform/input/quoted_text.hpp"
 #include "tlm/error.hpp"
 
 namespace parallax {
@@ -24,14 +25,15 @@ YAML::Node first_document(const CalibrationRequest::File& file) {
   try {
     return YAML::Load(without_opencv_head(file.text));
   } catch (const YAML::Exception& error) {
-    throw UserError(fmt::format("{}: not YAML: line {}: {}", file.path, error.mark.line + 1, error.msg));
+    throw UserError(
+        fmt::format("{}: not YAML: line {}: {}", file.path, error.mark.line + 1, printable(error.msg)));
   }
 }
 
 double finite_number(const YAML::Node& node, const std::string& where) {
   if (!node.IsScalar()) throw UserError(where + " is not a number");
   const std::optional<double> value = number_of(node.Scalar());
-  if (!value) throw UserError(fmt::format("{}: \"{}\" is not a number", where, node.Scalar()));
+  if (!value) throw UserError(fmt::format("{}: {} is not a number", where, in_quotes(node.Scalar())));
   if (!std::isfinite(*value)) throw UserError(where + " holds a value that is not a finite number");
   return *value;
 }
@@ -63,7 +65,7 @@ YamlEntries::YamlEntries(YAML::Node node, std::string where)
   std::set<std::string> names;
   for (const auto& entry : node_) {
     if (entry.first.IsScalar() && !names.insert(entry.first.Scalar()).second) {
-      throw UserError(fmt::format("{}{} occurs twice", where_, entry.first.Scalar()));
+      throw UserError(fmt::format("{}{} occurs twice", where_, printable(entry.first.Scalar())));
     }
   }
 }

@@ -349,7 +349,17 @@ TEST_F(CalibrationTest, OpenCvsReasonAndLineAreTold) {
   EXPECT_EQ(line("<?xml version=\"1.0\"?>\n<opencv_storage>\n<K1>1</K2>\n</opencv_storage>\n"),
             "line 3: Mismatched closing tag");
   EXPECT_EQ(line("{\"K1\": [1, 2}"), "line 1: Unexpected character");
+  EXPECT_EQ(line("<?xml version=\"1.0\"?>\n<opencv_storage>\n</opencv_storage>\nx"), "it ends too early");
+  EXPECT_EQ(line("%YAML:1.0\n---\nK1: !!opencv-matrix\n   rows: 3\n   : 3\n"), "an entry has no name");
   EXPECT_EQ(line("%YAML:1.0\n---\n- 1\n- 2\n"), "it has no named entries");
+}
+
+TEST_F(CalibrationTest, WhatAFileSaysStaysInItsLine) {
+  EXPECT_EQ(changed("camera_model", "camera_model: \"a\\nb\""),
+            "camera_model: \"a?b\" is not pinhole_radtan, fisheye_equidistant or rectified");
+  EXPECT_EQ(changed("camera_model", "camera_model: " + std::string(90, 'x')),
+            "camera_model: \"" + std::string(80, 'x') +
+                "...\" is not pinhole_radtan, fisheye_equidistant or rectified");
 }
 
 TEST_F(CalibrationTest, AMissingFirstLineIsNamed) {
