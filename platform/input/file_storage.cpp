@@ -25,6 +25,18 @@ std::string reason(const cv::Exception& error) {
   return error.err;
 }
 
+// OpenCV 4.6 does not come back from a text in which anything but a block follows this tag.
+void check_binary(const std::string& text, const std::string& path) {
+  const std::string tag = "!!binary";
+  for (std::size_t at = text.find(tag); at != std::string::npos; at = text.find(tag, at)) {
+    at = text.find_first_not_of(' ', at + tag.size());
+    if (at == std::string::npos || text[at] != '|') {
+      throw UserError(fmt::format(
+          "{}: not an OpenCV YAML, XML or JSON file: {} without the | that follows it", path, tag));
+    }
+  }
+}
+
 void check_begin(const std::string& text, const std::string& path) {
   const std::size_t begin = text.find_first_not_of(" \t\r\n");
   if (begin == std::string::npos) {
@@ -46,6 +58,7 @@ void check_begin(const std::string& text, const std::string& path) {
 
 cv::FileStorage parse_file_storage(const std::string& text, const std::string& path) {
   check_begin(text, path);
+  check_binary(text, path);
   try {
     cv::FileStorage file(text, cv::FileStorage::READ | cv::FileStorage::MEMORY);
     if (file.isOpened() && file.root().isMap()) {

@@ -42,6 +42,11 @@ const std::array kFormats{
     CalibrationFormat{"OpenCV FileStorage", is_opencv_calibration, read_opencv_calibration, true, false},
 };
 
+constexpr const char* kKnownFormats =
+    "OpenCV FileStorage (YAML with the first line %YAML:1.0, XML or JSON), ROS camera_info or EuRoC "
+    "sensor.yaml "
+    "(two files), Kalibr camchain, KITTI calib.txt or calib_cam_to_cam.txt, Middlebury calib.txt";
+
 // YAML with OpenCV's entries, but without its first line.
 bool lacks_head(const TopLevel& file, const std::string& text) {
   if (text.find("!!opencv-matrix") != std::string::npos) return true;
@@ -62,13 +67,7 @@ const CalibrationFormat& format_of(const CalibrationRequest::File& file) {
                     "does not read it",
                     file.path));
   }
-  throw UserError(
-      fmt::format("{}: not a calibration of a known format: OpenCV FileStorage (YAML with the first line "
-                  "%YAML:1.0, XML or JSON), "
-                  "ROS camera_info or EuRoC sensor.yaml (two files), Kalibr camchain, KITTI calib.txt or "
-                  "calib_cam_to_cam.txt, "
-                  "Middlebury calib.txt",
-                  file.path));
+  throw UserError(fmt::format("{}: not a calibration of a known format: {}", file.path, kKnownFormats));
 }
 
 }  // namespace

@@ -59,8 +59,7 @@ std::vector<double> flat_list(const YAML::Node& list, std::size_t columns, const
 YamlEntries::YamlEntries(const CalibrationRequest::File& file)
     : YamlEntries(first_document(file), file.path + ": ") {}
 
-YamlEntries::YamlEntries(YAML::Node node, std::string where)
-    : node_(std::move(node)), where_(std::move(where)) {
+YamlEntries::YamlEntries(const YAML::Node& node, std::string where) : node_(node), where_(std::move(where)) {
   if (!node_.IsMap()) throw UserError(where_ + "no named entries");
   std::set<std::string> names;
   for (const auto& entry : node_) {

@@ -36,7 +36,7 @@ class YamlEntries {
   std::vector<double> matrix(const std::string& name, int rows, int columns) const;
 
  private:
-  YamlEntries(YAML::Node node, std::string where);
+  YamlEntries(const YAML::Node& node, std::string where);
   YAML::Node find(const std::string& name) const;
 
   YAML::Node node_;

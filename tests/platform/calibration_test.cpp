@@ -350,6 +350,7 @@ TEST_F(CalibrationTest, OpenCvsReasonAndLineAreTold) {
             "line 3: Mismatched closing tag");
   EXPECT_EQ(line("{\"K1\": [1, 2}"), "line 1: Unexpected character");
   EXPECT_EQ(line("<?xml version=\"1.0\"?>\n<opencv_storage>\n</opencv_storage>\nx"), "it ends too early");
+  EXPECT_EQ(line("%YAML:1.0\n---\n# !!binary\nT: 1\n"), "!!binary without the | that follows it");
   EXPECT_EQ(line("%YAML:1.0\n---\nK1: !!opencv-matrix\n   rows: 3\n   : 3\n"), "an entry has no name");
   EXPECT_EQ(line("%YAML:1.0\n---\n- 1\n- 2\n"), "it has no named entries");
 }
@@ -372,6 +373,17 @@ TEST_F(CalibrationTest, AMissingFirstLineIsNamed) {
             ": looks like OpenCV's YAML, but its first line is not %YAML:1.0, without which OpenCV does not "
             "read it");
   }
+}
+
+TEST_F(CalibrationTest, MatricesInBase64AreRead) {
+  const SyntheticPair pair;
+  cv::FileStorage file(".yml", cv::FileStorage::WRITE_BASE64 | cv::FileStorage::MEMORY);
+  file << "image_width" << pair.width << "image_height" << pair.height << "K1" << pair.camera(0) << "D1"
+       << pair.coefficients() << "K2" << pair.camera(1) << "D2" << pair.coefficients() << "R"
+       << pair.rotation() << "T" << pair.translation();
+  const std::string text = file.releaseAndGetString();
+  ASSERT_NE(text.find("!!binary |"), std::string::npos);
+  EXPECT_EQ(read_calibration({write("b.yml", text)}).P2, read_calibration({write("c.yml", pair.text())}).P2);
 }
 
 TEST_F(CalibrationTest, HeadsAndLineEndsOfOtherSystemsAreRead) {

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "platform/input/kalibr_calibration.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <opencv2/core.hpp>
 
 #include "platform/input/read_calibration.hpp"
+#include "tests/paths.hpp"
 #include "tests/platform/test_calibrations.hpp"
 
 namespace parallax {
@@ -93,6 +97,33 @@ TEST_F(KalibrCalibration, AnyTwoCamerasOfTheChain) {
   // Camera 1 stands to the left of 0.
   EXPECT_NEAR(read(camera(0, "") + camera(1, moved("0.1")), CameraPair{1, 0}).geometry->baseline, 0.1, 1e-9);
   EXPECT_EQ(line(chain(), CameraPair{2, 3}), "cam3 is missing");
+}
+
+TEST_F(KalibrCalibration, ARealRigRectifiesAsFromOpenCvsFile) {
+  const std::string file = test::shared_data("euroc_v101/calib.yml");
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << "no shared data";
+  const Calibration stated = read_calibration({file});
+  cv::Mat r;
+  cv::Mat t;
+  const cv::FileStorage storage(file, cv::FileStorage::READ);
+  storage["R"] >> r;
+  storage["T"] >> t;
+  const auto row = [&](int i) {
+    return fmt::format("{}, {}, {}, {}", r.at<double>(i, 0), r.at<double>(i, 1), r.at<double>(i, 2),
+                       t.at<double>(i));
+  };
+  const auto entry = [](int number, const Lens& lens) {
+    const cv::Matx33d& k = lens.camera;
+    return fmt::format(
+        "cam{}:\n  camera_model: pinhole\n  distortion_model: radtan\n  resolution: [752, 480]\n"
+        "  intrinsics: [{}, {}, {}, {}]\n  distortion_coeffs: [{}]\n",
+        number, k(0, 0), k(1, 1), k(0, 2), k(1, 2), fmt::join(lens.distortion, ", "));
+  };
+  const Calibration chain =
+      read(entry(0, stated.left) + entry(1, stated.right) + transform("T_cn_cnm1", row(0), row(1), row(2)));
+  EXPECT_LT(cv::norm(chain.R1 - stated.R1), 1e-9);
+  EXPECT_LT(cv::norm(chain.P2 - stated.P2), 1e-3);
+  EXPECT_NEAR(chain.geometry->baseline, stated.geometry->baseline, 1e-6);
 }
 
 TEST_F(KalibrCalibration, TransformsFromTheImuStandIn) {
