@@ -47,8 +47,25 @@ cv::Mat to_mat(const cv::FileNode& node) {
   return mat;
 }
 
+// A matrix of one channel whose numbers are too few or too many, which OpenCV refuses without saying why.
+void check_count(const cv::FileNode& node, const std::string& place) {
+  if (!node.isMap()) return;
+  const cv::FileNode rows = node["rows"];
+  const cv::FileNode columns = node["cols"];
+  const cv::FileNode type = node["dt"];
+  const cv::FileNode data = node["data"];
+  const bool plain = rows.isInt() && columns.isInt() && data.isSeq() && type.isString();
+  if (!plain || static_cast<std::string>(type).size() != 1) return;
+  const double count = static_cast<double>(rows) * static_cast<double>(columns);
+  if (count != static_cast<double>(data.size())) {
+    throw UserError(fmt::format("{} has rows: {} and cols: {}, but {} numbers", place, static_cast<int>(rows),
+                                static_cast<int>(columns), data.size()));
+  }
+}
+
 std::vector<double> numbers_at(const cv::FileNode& node, const std::string& place,
                                const std::vector<FileStorageEntries::Shape>& shapes) {
+  check_count(node, place);
   cv::Mat mat;
   try {
     mat = to_mat(node);

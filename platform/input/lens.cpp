@@ -13,9 +13,7 @@
 namespace parallax {
 namespace {
 
-constexpr double kLeastLensFocal = 1;      // px: one that is counted in image widths is less
-constexpr double kLargestLensFocal = 1e7;  // px
-constexpr double kLargestSkew = 1e-4;      // of the focal length
+constexpr double kLargestSkew = 1e-4;  // of the focal length
 
 bool one_of(const std::string& name, std::initializer_list<const char*> names) {
   return std::find(names.begin(), names.end(), name) != names.end();
@@ -36,8 +34,8 @@ std::optional<LensModel> distortion_model(const std::string& name) {
 
 void check_camera(const cv::Matx33d& k, const std::string& where) {
   const bool finite = std::all_of(k.val, k.val + 9, [](double value) { return std::isfinite(value); });
-  const auto plausible = [](double focal) { return focal >= kLeastLensFocal && focal <= kLargestLensFocal; };
-  if (!finite || !plausible(k(0, 0)) || !plausible(k(1, 1)) || std::abs(k(2, 2) - 1) > kRotationTolerance) {
+  if (!finite || !plausible_focal(k(0, 0)) || !plausible_focal(k(1, 1)) ||
+      std::abs(k(2, 2) - 1) > kRotationTolerance) {
     throw UserError(fmt::format("{}: not a camera matrix: focal lengths {} and {} px, last element {}", where,
                                 k(0, 0), k(1, 1), k(2, 2)));
   }

@@ -24,6 +24,12 @@ struct Lens {
 /// kannala_brandt, ...). None for another name.
 std::optional<LensModel> distortion_model(const std::string& name);
 
+constexpr double kLeastFocal = 1;      ///< px: one that is counted in image widths is less
+constexpr double kLargestFocal = 1e7;  ///< px: a lens of 1 m on pixels of 0.1 um
+
+/// Whether a focal length is within these; NaN is not.
+inline bool plausible_focal(double focal) { return focal >= kLeastFocal && focal <= kLargestFocal; }
+
 /// Throws UserError, whose line begins with `where`, unless it is a camera matrix: finite, focal lengths of 1
 /// to 1e7 px, no skew to speak of (1e-4 of them: OpenCV leaves it out), last row 0 0 1.
 void check_camera(const cv::Matx33d& camera, const std::string& where);

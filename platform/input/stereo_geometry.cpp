@@ -6,13 +6,12 @@
 #include <array>
 #include <cmath>
 
+#include "platform/input/lens.hpp"
 #include "tlm/error.hpp"
 
 namespace parallax {
 namespace {
 
-constexpr double kLeastFocal = 1;         // px
-constexpr double kLargestFocal = 1e7;     // px: a lens of 1 m on pixels of 0.1 um
 constexpr double kLargestCentre = 1e6;    // px
 constexpr double kFocalAgreement = 1e-4;  // 0.1 px at 1000 px from the principal point
 constexpr double kCentreAgreement = 0.1;  // px
@@ -25,8 +24,6 @@ constexpr double kQAgreement = 1e-3;      // for files with four digits and more
 [[noreturn]] void refuse(const std::string& where, const std::string& what) {
   throw UserError(fmt::format("{}: {}", where, what));
 }
-
-bool plausible_focal(double focal) { return focal >= kLeastFocal && focal <= kLargestFocal; }
 
 void check_projection(const cv::Matx34d& p, const std::string& where) {
   for (const double value : p.val) {

@@ -255,6 +255,9 @@ TEST_F(CalibrationTest, MissingOrGarbledEntriesAreNamed) {
   EXPECT_EQ(changed("image_height", ""), "image_height is missing");
   EXPECT_EQ(changed("K1", "K1: hello"), "K1 is not a matrix of numbers");
   EXPECT_EQ(changed("K1", "K1: [1, 2, 3]"), "K1 has 3x1 elements, 3x3 expected");
+  EXPECT_EQ(
+      changed("K1", "K1: !!opencv-matrix\n   rows: 3\n   cols: 3\n   dt: d\n   data: [ 1, 0, 0, 0, 1 ]"),
+      "K1 has rows: 3 and cols: 3, but 5 numbers");
   EXPECT_EQ(changed("T", "T: [.nan, 0, 0]"), "T holds a value that is not a finite number");
   EXPECT_EQ(changed("T", "T: [0, 0, 0]"), "T: the baseline is zero");
   EXPECT_EQ(changed("R", "R: [.inf, 0, 0]"), "R holds a value that is not a finite number");
