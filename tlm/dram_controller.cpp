@@ -32,6 +32,7 @@ void DramPolicy::validate() const {
   require("write_queue", write_queue, 1, kLongest);
   require("write_high", high_watermark, 1, write_queue);
   require("write_low", low_watermark, 0, high_watermark - 1);
+  require("write_batch", longest_batch, 1, kLongest);
   require("efficiency", efficiency, 1, 100);
 }
 
@@ -203,7 +204,7 @@ DramController::Clock DramController::activate_ready(std::uint32_t number) const
 
 void DramController::issue(std::vector<Done>& done) {
   const Clock at = plan_.clock;
-  writing_ = plan_writing_;
+  turn(plan_writing_);
   changed_ = at;
   if (plan_.command == DramCommand::kRead || plan_.command == DramCommand::kWrite) {
     Queue& from = queue();
@@ -212,6 +213,11 @@ void DramController::issue(std::vector<Done>& done) {
     notify(at, plan_.command, burst.location);
     --from.bursts;
     if (--entry.bursts == 0) from.entries.erase(from.entries.begin() + plan_.entry);
+    if (plan_writing_) {
+      if (reads_.bursts != 0) ++batch_;
+    } else if (reads_first_ != 0) {
+      --reads_first_;
+    }
     column(at, burst, done);
   } else {
     issue_row(plan_);
@@ -340,7 +346,7 @@ bool DramController::serve_alone(const Burst& burst, std::uint64_t number, Clock
     notify(at, burst.write ? DramCommand::kWrite : DramCommand::kRead, burst.location);
     column(at, burst, done);
   }
-  writing_ = burst.write;
+  turn(burst.write);
   changed_ = columns_.back();
   command_free_ = changed_ + 1;
   planned_ = false;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <limits>
@@ -18,6 +19,7 @@ struct DramPolicy {
   std::size_t write_queue = 32;     ///< bursts, 1 to 1024
   std::size_t high_watermark = 26;  ///< writes queued at which a batch of them begins, at most write_queue
   std::size_t low_watermark = 6;    ///< writes queued at which it ends when reads wait, below high_watermark
+  std::size_t longest_batch = 64;   ///< writes, 1 to 1024, that go while reads wait; then reads have their turn
   std::int64_t efficiency = 100;    ///< percent of the time that column commands may take, 1 to 100: what a
                                     ///< real controller loses beyond the devices' timing
 
@@ -52,7 +54,9 @@ class DramListener {
 /// write of an open row, an activate, a precharge; of several in one clock that of the oldest burst. A row is
 /// closed only when nothing in that queue wants it, so row hits go before conflicts. When a refresh is due
 /// nothing else begins until it is done. A batch of writes begins at the high watermark, or when no read
-/// waits, and ends at the low one if reads wait.
+/// waits, and ends at the low one if reads wait. Where writes come as fast as they are written it would not
+/// get there: after `longest_batch` writes that reads had to wait for it ends too, and as many of the reads
+/// that wait then go before another begins.
 ///
 /// Plain C++ in clocks. It decides nothing beyond what its caller says is known (run_until), and steps from
 /// command to command, so idle time costs nothing.
@@ -108,7 +112,7 @@ class DramController {
     if (plan_.clock < limit) issue_until(limit, done);
     // A direction is chosen in the clock after a queue has changed, when all that entered with the change is
     // known.
-    if (changed_ + 1 < limit) writing_ = plan_writing_;
+    if (changed_ + 1 < limit) turn(plan_writing_);
   }
   /// Clock of the next command if nothing else arrives; kNever when it waits for nothing but refreshes.
   Clock next_command();
@@ -163,8 +167,17 @@ class DramController {
   Queue& queue() { return plan_writing_ ? writes_ : reads_; }
   bool direction() const {
     const bool only_writes = reads_.bursts == 0 && writes_.bursts != 0;
-    return only_writes ||
-           (writing_ ? writes_.bursts > policy_.low_watermark : writes_.bursts >= policy_.high_watermark);
+    if (only_writes) return true;
+    return writing_ ? writes_.bursts > policy_.low_watermark && batch_ < policy_.longest_batch
+                    : writes_.bursts >= policy_.high_watermark && reads_first_ == 0;
+  }
+  // A batch of writes begins or ends.
+  void turn(bool writing) {
+    if (writing == writing_) return;
+    writing_ = writing;
+    reads_first_ =
+        !writing && batch_ >= policy_.longest_batch ? std::min(reads_.bursts, policy_.longest_batch) : 0;
+    batch_ = 0;
   }
   void plan_queue();
   bool plan_oldest();
@@ -199,7 +212,9 @@ class DramController {
   const DramPolicy policy_;
   Queue reads_;
   Queue writes_;
-  bool writing_ = false;  // whether a batch of writes is under way
+  bool writing_ = false;         // whether a batch of writes is under way
+  std::size_t batch_ = 0;        // writes of it that went while reads waited
+  std::size_t reads_first_ = 0;  // reads that go before the next batch
   std::vector<Bank> banks_;
   std::vector<Free> groups_;          // what each bank group allows,
   Free any_;                          // and all of them

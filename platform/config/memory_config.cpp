@@ -32,7 +32,7 @@ void MemoryConfig::validate() const {
 DramMemory MemoryConfig::dram_memory() const {
   DramMemory memory;
   memory.timing = dram;
-  memory.policy = {read_queue, write_queue, write_high, write_low, efficiency};
+  memory.policy = {read_queue, write_queue, write_high, write_low, write_batch, efficiency};
   memory.mapping = mapping;
   memory.latency = latency_cycles;
   memory.arbitration = arbitration;
@@ -94,6 +94,11 @@ void describe(Schema& schema, MemoryConfig& config) {
                  "DRAM: writes queued at which a batch of them begins.", queues);
   schema.integer("memory.write_low", config.write_low, {0, 1023}, "bursts",
                  "DRAM: writes queued at which the batch ends when reads wait.", queues);
+  schema.integer(
+      "memory.write_batch", config.write_batch, {1, 1024}, "bursts",
+      "DRAM: writes of a batch that go while reads wait, after which these have their turn: without "
+      "it a stream of writes as fast as the memory keeps reads waiting to its end.",
+      chosen("not published; controllers bound it by such a number or by a time"));
   describe(schema, config.dram);
 }
 

@@ -39,6 +39,7 @@ struct MemoryConfig {
   std::uint32_t write_high =
       26;                       ///< DRAM: writes queued at which a batch begins, 1 to write_queue; own choice
   std::uint32_t write_low = 6;  ///< DRAM: writes queued at which it ends, below write_high; own choice
+  std::uint32_t write_batch = 64;  ///< DRAM: writes, 1 to 1024, that may go while reads wait; own choice
 
   /// Throws UserError when values are fine alone but not together.
   void validate() const;

@@ -83,6 +83,7 @@ RC_GTEST_PROP(DramController, EveryCommandIsThatOfTheClockByClockReference, (std
   policy.write_queue = 2 + draw() % 31;
   policy.high_watermark = 1 + draw() % policy.write_queue;
   policy.low_watermark = draw() % policy.high_watermark;
+  policy.longest_batch = 1 + draw() % 40;
   DramController controller(timing, policy);
   Log log;
   controller.add_listener(log);
@@ -136,6 +137,28 @@ TEST(DramController, ReadsOfAClosedBankAnOpenRowAndAnotherRow) {
   EXPECT_EQ(latency(controller, {0, 5}, 0), 1 + 7 + 7 + 4);
   EXPECT_EQ(latency(controller, {0, 5}, 300), 1 + 7 + 4);
   EXPECT_EQ(latency(controller, {0, 6}, 600), 1 + 7 + 7 + 7 + 4);
+}
+
+// Writes that come as fast as they are written: the queue never falls to the low watermark.
+TEST(DramController, AStreamOfWritesKeepsNoReadWaitingToItsEnd) {
+  DramTiming timing;
+  timing.refi = 0;
+  for (const std::size_t batch : {16u, 64u, 1024u}) {
+    DramPolicy policy;
+    policy.longest_batch = batch;
+    DramController controller(timing, policy);
+    std::vector<DramController::Done> done;
+    for (std::int64_t clock = 0; controller.statistics().writes < 2000; ++clock) {
+      controller.run_until(clock + 1, done);
+      if (clock == 200) controller.submit({{1, 0}, 1, false}, clock);
+      if (clock != 200 && controller.room(true)) controller.submit({{0, 0}, 0, true}, clock);
+    }
+    const auto read = std::find_if(done.begin(), done.end(), [](const auto& d) { return !d.write; });
+    ASSERT_NE(read, done.end()) << batch;
+    // A write takes the bus for four clocks. Some forty have gone when the read comes.
+    const auto waited = static_cast<std::size_t>(read - done.begin()) - 200 / 4;
+    EXPECT_NEAR(static_cast<double>(waited), static_cast<double>(batch), 12) << batch;
+  }
 }
 
 TEST(DramController, EfficiencyStretchesTheColumnCommands) {

@@ -167,7 +167,7 @@ DramMemory random_dram(std::mt19937& random) {
   if (random() % 3 == 0) dram.timing.refi = 600 + random() % 1000;
   dram.mapping = static_cast<DramMapping>(random() % 3);
   if (random() % 2 == 0) dram.policy.efficiency = 60 + random() % 41;
-  if (random() % 2 == 0) dram.policy = {4, 6, 5, 2, dram.policy.efficiency};
+  if (random() % 2 == 0) dram.policy = {4, 6, 5, 2, 3, dram.policy.efficiency};
   dram.latency = random() % 2 == 0 ? 0 : random() % 60;
   if (random() % 2 == 0) dram.arbitration = MemoryArbitration::kFixedPriority;
   return dram;

@@ -125,6 +125,8 @@ TEST(MemoryFaults, ImpossibleDramsAreRefused) {
             "memory.write_high = 33: must be from 1 to 32");
   EXPECT_EQ(complaint([](DramMemory& m) { m.policy.low_watermark = 26; }),
             "memory.write_low = 26: must be from 0 to 25");
+  EXPECT_EQ(complaint([](DramMemory& m) { m.policy.longest_batch = 0; }),
+            "memory.write_batch = 0: must be from 1 to 1024");
   EXPECT_EQ(complaint([](DramMemory& m) { m.policy.efficiency = 0; }),
             "memory.efficiency = 0: must be from 1 to 100");
   EXPECT_EQ(complaint([](DramMemory& m) { m.timing.banks = 0; }), "dram.banks = 0: must be at least 1");

@@ -43,9 +43,17 @@ class NaiveDram {
 
   void choose(std::int64_t now) {
     if (!writing_) {
-      writing_ = writes_.size() >= policy_.high_watermark || (reads_.empty() && !writes_.empty());
-    } else if (writes_.empty() || (writes_.size() <= policy_.low_watermark && !reads_.empty())) {
-      writing_ = false;
+      const bool reads_have_their_turn = turn_ > 0 && !reads_.empty();
+      if ((writes_.size() >= policy_.high_watermark && !reads_have_their_turn) || (reads_.empty() && !writes_.empty())) {
+        writing_ = true;
+        kept_waiting_ = 0;
+      }
+    } else {
+      const bool enough = kept_waiting_ >= policy_.longest_batch;
+      if (writes_.empty() || ((writes_.size() <= policy_.low_watermark || enough) && !reads_.empty())) {
+        writing_ = false;
+        turn_ = enough ? std::min(reads_.size(), policy_.longest_batch) : 0;
+      }
     }
     if (t_.refi > 0 && now >= (refreshes_ + 1) * t_.refi) {
       bool any_open = false;
@@ -73,6 +81,8 @@ class NaiveDram {
       if (!allowed(now, next, location.bank)) continue;
       issue({now, next, location.bank, location.row});
       if (next == DramCommand::kRead || next == DramCommand::kWrite) {
+        if (writing_ && !reads_.empty()) ++kept_waiting_;
+        if (!writing_ && turn_ > 0) --turn_;
         queue.erase(queue.begin() + static_cast<std::ptrdiff_t>(i));
       }
       return;
@@ -155,6 +165,8 @@ class NaiveDram {
   const DramPolicy policy_;
   Queue reads_, writes_;
   bool writing_ = false;
+  std::size_t kept_waiting_ = 0;  // writes of the batch for which reads waited
+  std::size_t turn_ = 0;          // reads that still go before the next batch
   std::int64_t refreshes_ = 0;
   std::vector<LoggedCommand> log_;
 };
