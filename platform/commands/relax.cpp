@@ -10,7 +10,7 @@
 #include "platform/commands/trial_pool.hpp"
 #include "platform/config/preset.hpp"
 #include "platform/evaluation/evaluation_inputs.hpp"
-#include "platform/evaluation/relaxed_limits.hpp"
+#include "platform/evaluation/verdict.hpp"
 #include "platform/results/output_folder.hpp"
 #include "platform/results/result_names.hpp"
 #include "traces/json_text.hpp"
@@ -23,8 +23,8 @@ int not_measured(const EvaluationResult& base, CommandContext& context) {
   return base.status == EvaluationResult::Status::kInvalid ? kBadInput : kNotAsExpected;
 }
 
-void report(const RelaxedLimits& limits, const RunOptions& options, CommandContext& context) {
-  const nlohmann::ordered_json tree = to_json(limits);
+void report(const Verdict& verdict, const RunOptions& options, CommandContext& context) {
+  const nlohmann::ordered_json tree = to_json(verdict.limits);
   if (!options.out.empty()) {
     OutputFolder folder(options.out);
     folder.replace(is_result_name);
@@ -34,7 +34,7 @@ void report(const RelaxedLimits& limits, const RunOptions& options, CommandConte
   if (options.json) {
     context.out << json_text(tree, 2) << '\n';
   } else if (context.verbosity != Verbosity::kQuiet) {
-    context.out << to_text(limits);
+    context.out << to_text(verdict.limits) << "verdict             " << verdict.sentence << '\n';
   }
 }
 
@@ -55,10 +55,13 @@ int relax(const RunOptions& options, CommandContext& context) {
   const std::vector<EvaluationResult> base = pool.evaluate({{}});
   if (base.empty()) return stopped(0);
   if (!base[0].done()) return not_measured(base[0], context);
-  const std::vector<Relaxation> all = relaxations(configuration.machine, base[0].metrics);
-  const std::vector<EvaluationResult> results = pool.try_out(all);
-  if (results.size() < all.size()) return stopped(results.size());
-  report(relaxed_limits(base[0], all, results), options, context);
+  if (base[0].rate == 0)
+    throw UserError("--relax needs a frame rate: a single frame has none; --timing-frames 2 or more has one");
+  const Verdict verdict =
+      find_verdict(configuration.machine, base[0], Thoroughness::kAll,
+                   [&pool](const std::vector<Relaxation>& relaxations) { return pool.try_out(relaxations); });
+  if (interruption.requested()) return stopped(verdict.limits.alone.size());
+  report(verdict, options, context);
   return 0;
 }
 

@@ -30,7 +30,9 @@ EvaluationResult simulate(const MachineConfig& config, const EvaluationInput& in
   machine_input.width = input.map->width;
   machine_input.height = input.map->height;
   machine_input.map = input.map;
-  machine_input.frames = frames_to_simulate(config, input.frames, input.timing_frames);
+  const RunLength length = run_length(config, input.frames, input.timing_frames);
+  machine_input.frames = length.most;
+  machine_input.least_frames = length.least;
   machine_input.timing_only = true;
   const Machine machine("machine", config, machine_input);
   sc_core::sc_start();

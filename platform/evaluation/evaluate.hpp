@@ -22,7 +22,7 @@ struct EvaluationInput {
   int height = 0;                             ///< px
   const EncodedMap* map = nullptr;            ///< of the size that is processed; must outlive its use
   std::int64_t frames = 1;                    ///< of the input
-  std::optional<std::int64_t> timing_frames;  ///< least number to simulate (frames_to_simulate)
+  std::optional<std::int64_t> timing_frames;  ///< least number to simulate (run_length)
   std::string command;                        ///< echoed in the metrics
   std::optional<std::uint64_t> scene_seed;    ///< likewise, when the built-in scene is the input
 };

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <sstream>
 #include <utility>
 
 namespace parallax {
@@ -36,6 +37,8 @@ EvaluationResult measured(MetricGroup metrics) {
   result.latency.exposure_to_host = metrics.number("latency/exposure_to_host_mean");
   result.limit.part = metrics.word_or("limit/part", "none");
   result.limit.utilisation = metrics.number_or("limit/utilisation", 0);
+  std::istringstream reliefs(metrics.word_or("limit/relieved_by", ""));
+  for (std::string name; reliefs >> name;) result.limit.relieved_by.push_back(name);
   result.disparities = metrics.count("input/disparity_range");
   result.metrics = std::move(metrics);
   return result;

@@ -26,8 +26,9 @@ struct EvaluationResult {
     double exposure_to_host = 0;  ///< from the end of exposure to the frame's last bit at the host
   };
   struct Limit {
-    std::string part = "none";  ///< that is at work all the time
-    double utilisation = 0;     ///< of it, or of the busiest, %
+    std::string part = "none";             ///< that is at work all the time
+    double utilisation = 0;                ///< of it, or of the busiest, %
+    std::vector<std::string> relieved_by;  ///< names of the limits without which it would be faster
   };
 
   Status status = Status::kFailed;

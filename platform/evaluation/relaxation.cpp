@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace parallax {
 namespace {
@@ -12,11 +13,22 @@ constexpr std::int64_t kFastestClock = 10'000'000'000;  // Hz, the largest that 
 constexpr std::int64_t kDeeper = 16;
 constexpr std::int64_t kDeepest = 1 << 20;  // tokens; deeper FIFOs take memory of this computer
 
+Relaxation one(Relief limit, std::string meaning, std::string remedy, std::vector<std::string> assignments) {
+  return {name_of(limit),    spoken(name_of(limit)), std::move(meaning),
+          std::move(remedy), std::move(assignments), {limit}};
+}
+
 Relaxation clock(Relief limit, const char* name, std::int64_t hertz) {
-  return {limit,
-          "twice as fast",
-          fmt::format("doubling the {}'s clock", name),
-          {fmt::format("clocks.{}_hz={}", name, std::min(2 * hertz, kFastestClock))}};
+  return one(limit, "twice as fast", fmt::format("doubling the {}'s clock", name),
+             {fmt::format("clocks.{}_hz={}", name, std::min(2 * hertz, kFastestClock))});
+}
+
+std::int64_t deeper(std::int64_t depth) {
+  return std::max(depth, std::min(kDeeper * depth + 1024, kDeepest));
+}
+
+std::string depth_of(const std::string& stream, std::int64_t tokens) {
+  return fmt::format("streams.{}.depth={}", stream, tokens);
 }
 
 // FIFOs between stages; those of DMA engines have keys of their own.
@@ -25,9 +37,7 @@ std::vector<std::string> deeper_fifos(const MetricGroup& metrics) {
   for (const std::string& name : pipeline_stream_names()) {
     const Metric* const metric = metrics.find("streams/" + name + "/depth");
     if (metric == nullptr) continue;  // a machine without it
-    const std::int64_t depth = metric->count();
-    assignments.push_back(fmt::format("streams.{}.depth={}", name,
-                                      std::max(depth, std::min(kDeeper * depth + 1024, kDeepest))));
+    assignments.push_back(depth_of(name, deeper(metric->count())));
   }
   return assignments;
 }
@@ -54,11 +64,16 @@ std::vector<std::string> longer_queues(const DmaConfig& dma) {
 Relaxation memory_clock(const MachineConfig& config) {
   if (config.memory.model == MemoryModel::kBus)
     return clock(Relief::kMemoryClock, "memory", config.clocks.memory_hz);
-  return {Relief::kMemoryClock,
-          "twice as fast",
-          "doubling the memory's clock",
-          {fmt::format("dram.clock_period_ps={}",
-                       std::max<std::int64_t>(config.memory.dram.clock_period_ps / 2, 100))}};
+  return one(Relief::kMemoryClock, "twice as fast", "doubling the memory's clock",
+             {fmt::format("dram.clock_period_ps={}",
+                          std::max<std::int64_t>(config.memory.dram.clock_period_ps / 2, 100))});
+}
+
+// Bytes of the widest port that a burst of this length fills whole.
+std::uint32_t widest_beat(std::uint32_t burst_bytes) {
+  std::uint32_t beat = std::min(burst_bytes, 1024U);
+  while (burst_bytes % beat != 0) --beat;
+  return beat;
 }
 
 std::int64_t larger_memory(const MemoryConfig& config) {
@@ -70,60 +85,110 @@ std::int64_t larger_memory(const MemoryConfig& config) {
 
 std::vector<Relaxation> relaxations(const MachineConfig& config, const MetricGroup& metrics) {
   std::vector<Relaxation> all{
-      {Relief::kFifos, "between stages, 16 times and 1024 tokens deeper", "deeper FIFOs",
-       deeper_fifos(metrics)},
-      {Relief::kMemory,
-       "no latency, all of 1024 B a cycle",
-       "a memory without limits",
-       {"memory.model=bus", "memory.bytes_per_cycle=1024", "memory.latency_cycles=0",
-        "memory.efficiency=100"}},
-      {Relief::kDma, "8 times as many bursts under way", "8 times as many bursts under way",
-       longer_queues(config.dma)},
-      {Relief::kCamera,
-       "any rate, cable and pixel clock",
-       "cameras without limits",
-       {fmt::format("clocks.camera_hz={}", kFastestClock), "camera.bytes_per_second=1000000000000",
-        "camera.frame_rate=0", "camera.jitter_ns=0", "camera.exposure_ns=0", "camera.skew_ns=0",
-        "camera.row_blanking=0", "camera.frame_blanking=0"}},
-      {Relief::kBuffers,
-       "twice as many for frames and results",
-       "twice as many buffers",
-       {fmt::format("camera.frame_buffers={}", std::min(2 * config.camera.frame_buffers, 64U)),
-        fmt::format("link.output_buffers={}", std::min(2 * config.link.output_buffers, 64U)),
-        fmt::format("memory.size_bytes={}", larger_memory(config.memory))}},
+      one(Relief::kFifos, "between stages, 16 times and 1024 tokens deeper", "deeper FIFOs",
+          deeper_fifos(metrics)),
+      one(Relief::kMemory, "no latency, all of 1024 B a cycle", "a memory without limits",
+          {"memory.model=bus", "memory.bytes_per_cycle=1024", "memory.latency_cycles=0",
+           "memory.efficiency=100", fmt::format("clocks.memory_hz={}", kFastestClock)}),
+      one(Relief::kDma, "8 times as many bursts under way", "8 times as many bursts under way",
+          longer_queues(config.dma)),
+      one(Relief::kCamera, "any rate, cable and pixel clock", "cameras without limits",
+          {fmt::format("clocks.camera_hz={}", kFastestClock), "camera.bytes_per_second=1000000000000",
+           "camera.frame_rate=0", "camera.jitter_ns=0", "camera.exposure_ns=0", "camera.skew_ns=0",
+           "camera.row_blanking=0", "camera.frame_blanking=0"}),
+      one(Relief::kBuffers, "twice as many for frames and results", "twice as many buffers",
+          {fmt::format("camera.frame_buffers={}", std::min(2 * config.camera.frame_buffers, 64U)),
+           fmt::format("link.output_buffers={}", std::min(2 * config.link.output_buffers, 64U)),
+           fmt::format("memory.size_bytes={}", larger_memory(config.memory))}),
       clock(Relief::kCoreClock, "core", config.clocks.core_hz),
       memory_clock(config),
       clock(Relief::kCameraClock, "camera", config.clocks.camera_hz)};
   if (config.timing.matching.interval > 1 || config.matching.recurrence_latency > 1) {
-    all.push_back({Relief::kMatchingInterval,
-                   "one iteration a cycle, pixel after pixel",
-                   "a matcher without interval or recurrence",
-                   {"matching.interval=1", "matching.recurrence_latency=1"}});
+    all.push_back(one(Relief::kMatchingInterval, "one iteration a cycle, pixel after pixel",
+                      "a matcher without interval or recurrence",
+                      {"matching.interval=1", "matching.recurrence_latency=1"}));
   }
   if (config.matching.path_storage == PathStorage::kMemory || (config.matching.paths & kSouthernPaths) != 0) {
-    all.push_back({Relief::kBufferPort,
-                   "8192 bit a cycle",
-                   "a wider buffer port",
-                   {"dma.buffer.data_bits=8192",
-                    fmt::format("dma.buffer.burst_bytes={}",
-                                std::min((config.dma.buffer.burst_bytes + 1023) / 1024 * 1024, 4096U)),
-                    "dma.buffer.fifo_bytes=1048576"}});
+    const std::uint32_t beat = widest_beat(config.dma.buffer.burst_bytes);
+    all.push_back(one(Relief::kBufferPort, fmt::format("{} bit a cycle", 8 * beat), "a wider buffer port",
+                      {fmt::format("dma.buffer.data_bits={}", 8 * beat), "dma.buffer.fifo_bytes=1048576"}));
   }
   if (config.matching.path_storage == PathStorage::kMemory) {
-    all.push_back({Relief::kPathStorage, "on chip", "path costs on chip", {"matching.path_storage=on_chip"}});
+    all.push_back(
+        one(Relief::kPathStorage, "on chip", "path costs on chip", {"matching.path_storage=on_chip"}));
   }
-  if (config.software.response_ns > 0 || !config.software.queue_frames) {
-    all.push_back({Relief::kSoftware,
-                   "no time between frames, which queue",
-                   "software that takes no time",
-                   {"software.response_ns=0", "software.queue_frames=true"}});
+  if (config.software.response_ns > 0 || config.software.register_ns > 0 || !config.software.queue_frames) {
+    all.push_back(one(Relief::kSoftware, "no time between frames, which queue", "software that takes no time",
+                      {"software.response_ns=0", "software.register_ns=0", "software.queue_frames=true"}));
   }
   if (config.link.enabled) {
     all.push_back(clock(Relief::kLinkClock, "link", config.clocks.link_hz));
-    all.push_back({Relief::kLink, "1 Tbit/s", "a link of 1 Tbit/s", {"link.line_rate=1000000000000"}});
+    all.push_back(one(Relief::kLink, "1 Tbit/s", "a link of 1 Tbit/s", {"link.line_rate=1000000000000"}));
     if (config.link.host_pixel_rate > 0)
       all.push_back(
-          {Relief::kHost, "takes pixels at any rate", "a host of any rate", {"link.host_pixel_rate=0"}});
+          one(Relief::kHost, "takes pixels at any rate", "a host of any rate", {"link.host_pixel_rate=0"}));
+  }
+  return all;
+}
+
+std::vector<Relaxation> fifo_relaxations(const MetricGroup& metrics) {
+  std::vector<std::pair<double, Relaxation>> full;
+  for (const std::string& stream : pipeline_stream_names()) {
+    const MetricGroup* const group = metrics.find_group("streams/" + stream);
+    if (group == nullptr || group->number("full") == 0) continue;
+    full.emplace_back(group->number("full"), fifo_relaxation(metrics, stream, deeper(group->count("depth"))));
+  }
+  std::stable_sort(full.begin(), full.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::vector<Relaxation> all;
+  for (auto& [share, relaxation] : full) all.push_back(std::move(relaxation));
+  return all;
+}
+
+Relaxation fifo_relaxation(const MetricGroup& metrics, const std::string& stream, std::int64_t tokens) {
+  const std::int64_t depth = metrics.count("streams/" + stream + "/depth");
+  Relaxation fifo = one(Relief::kFifos, fmt::format("{} instead of {} tokens", tokens, depth),
+                        fmt::format("a depth of {}", tokens), {depth_of(stream, tokens)});
+  fifo.name = "fifo_" + stream;
+  fifo.subject = fmt::format("FIFO {} with its depth of {}", stream, depth);
+  fifo.fifo = stream;
+  return fifo;
+}
+
+std::vector<std::int64_t> fifo_depths(const MachineConfig& config, const MetricGroup& metrics,
+                                      const std::string& stream) {
+  const std::int64_t depth = metrics.count("streams/" + stream + "/depth");
+  std::vector<std::int64_t> depths;
+  for (std::int64_t tokens = 2 * depth; tokens < deeper(depth); tokens *= 2) depths.push_back(tokens);
+  const auto configured = std::find_if(config.streams.depths.begin(), config.streams.depths.end(),
+                                       [&](const StreamDepth& d) { return d.name == stream; });
+  if (configured->tokens != 0) depths.push_back(0);
+  return depths;
+}
+
+Relaxation together(const std::vector<Relaxation>& some) {
+  const auto has = [&](Relief limit) {
+    return std::any_of(some.begin(), some.end(), [limit](const Relaxation& r) {
+      return r.fifo.empty() && std::find(r.limits.begin(), r.limits.end(), limit) != r.limits.end();
+    });
+  };
+  Relaxation all;
+  const auto join = [](std::string& text, const char* between, const std::string& more) {
+    if (!text.empty()) text += between;
+    text += more;
+  };
+  for (const Relaxation& relaxation : some) {
+    join(all.name, "+", relaxation.name);
+    join(all.subject, " and ", relaxation.subject);
+    join(all.meaning, "; ", relaxation.meaning);
+    join(all.remedy, " and ", relaxation.remedy);
+    all.limits.insert(all.limits.end(), relaxation.limits.begin(), relaxation.limits.end());
+    const bool held_by_another =
+        (relaxation.limits.front() == Relief::kCameraClock && has(Relief::kCamera)) ||
+        (relaxation.limits.front() == Relief::kMemoryClock && has(Relief::kMemory)) ||
+        (!relaxation.fifo.empty() && has(Relief::kFifos));
+    if (held_by_another) continue;
+    all.assignments.insert(all.assignments.end(), relaxation.assignments.begin(),
+                           relaxation.assignments.end());
   }
   return all;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -10,20 +11,36 @@
 
 namespace parallax {
 
-/// One limit of a machine taken away, as configuration keys. Part::relieved_by says which parts that makes
-/// faster.
+/// Limits of a machine taken away, as configuration keys: one, a single FIFO of many, or several together.
+/// Part::relieved_by says which parts that makes faster.
 struct Relaxation {
-  Relief limit;
+  std::string name;                      ///< "core_clock", "fifo_winners", "core_clock+host"
+  std::string subject;                   ///< what limits, in a sentence: "core clock"
   std::string meaning;                   ///< a few words
   std::string remedy;                    ///< the same in a sentence: "... gives 143 fps"
   std::vector<std::string> assignments;  ///< "key=value"
-
-  /// "core_clock".
-  std::string name() const { return name_of(limit); }
+  std::vector<Relief> limits;            ///< which; of a single FIFO Relief::kFifos
+  std::string fifo{};                    ///< of a single FIFO: its stream
 };
 
-/// All that make sense for a machine: those that would change nothing are left out. `metrics`: of its
-/// run, for the depths that its FIFOs have.
+/// Each limit alone: all that make sense for a machine; those that would change nothing are left out.
+/// `metrics`: of its run, for the depths that its FIFOs have.
 std::vector<Relaxation> relaxations(const MachineConfig& config, const MetricGroup& metrics);
+
+/// Each FIFO alone that is full at times, deep, the one that is so for longest first. One that never is holds
+/// nothing back.
+std::vector<Relaxation> fifo_relaxations(const MetricGroup& metrics);
+
+/// The FIFO of this stream with so many tokens in place of those that it has; 0: as many as the model
+/// derives.
+Relaxation fifo_relaxation(const MetricGroup& metrics, const std::string& stream, std::int64_t tokens);
+
+/// Depths to try for it: from twice what it has up to what fifo_relaxations() gives it, each twice the one
+/// before; and 0 where the configuration says another than the model derives.
+std::vector<std::int64_t> fifo_depths(const MachineConfig& config, const MetricGroup& metrics,
+                                      const std::string& stream);
+
+/// All of them at once; of two that set one key the one that takes more away.
+Relaxation together(const std::vector<Relaxation>& some);
 
 }  // namespace parallax

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,7 +11,7 @@
 
 namespace parallax {
 
-/// What became of a machine with one limit taken away.
+/// What became of a machine with limits taken away.
 struct RelaxedLimit {
   Relaxation relaxation;
   bool measured = false;
@@ -19,21 +20,28 @@ struct RelaxedLimit {
   double latency = 0;     ///< ms, from exposure to the host, mean of the steady state
   double gain = 0;        ///< % of the frame rate
   std::string next_part;  ///< that limits then; "none"
+
+  /// More than the steady state's own rounding.
+  bool gains() const { return measured && gain >= kNoise; }
+
+  static constexpr double kNoise = 0.1;  ///< %
 };
 
-/// A machine and its limits, taken away one at a time; what gains most first.
+/// `base`: of the machine as it is. `result`: of the relaxation.
+RelaxedLimit relaxed_limit(const EvaluationResult& base, const Relaxation& relaxation,
+                           const EvaluationResult& result);
+
+/// A machine and its limits, taken away one at a time.
 struct RelaxedLimits {
   double frame_rate = 0;
   double latency = 0;
-  std::vector<RelaxedLimit> gains;
+  std::vector<RelaxedLimit> alone;    ///< what gains most first
+  std::optional<RelaxedLimit> limit;  ///< what limits: of `alone`, or several that gain only together
 
-  /// That of the largest gain; null where none gains anything.
-  const RelaxedLimit* limit() const;
+  /// "host", "core_clock+host", "none".
+  std::string limit_name() const { return limit ? limit->relaxation.name : "none"; }
+  void add(RelaxedLimit relaxed);
 };
-
-/// `base`: of the machine as it is. `results`: of the relaxations, in their order.
-RelaxedLimits relaxed_limits(const EvaluationResult& base, const std::vector<Relaxation>& relaxations,
-                             const std::vector<EvaluationResult>& results);
 
 std::string to_text(const RelaxedLimits& limits);
 nlohmann::ordered_json to_json(const RelaxedLimits& limits);

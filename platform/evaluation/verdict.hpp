@@ -6,17 +6,16 @@
 #include <vector>
 
 #include "platform/evaluation/relaxed_limits.hpp"
-#include "platform/machine/machine.hpp"
 #include "traces/metrics.hpp"
 
 namespace parallax {
 
-/// Evaluates the machine with each of these limits alone taken away, in their order.
+/// Evaluates the machine with each of these taken away, in their order. Fewer results: it was interrupted.
 using Trial = std::function<std::vector<EvaluationResult>(const std::vector<Relaxation>&)>;
 
-/// How many limits are tried.
+/// How many limits are tried alone.
 enum class Thoroughness {
-  kUntilOneGains,  ///< that of the busiest part; if it gains nothing, all the others
+  kUntilCertain,  ///< those of the busiest part; the others where all of them together gain more
   kAll,
 };
 
@@ -26,8 +25,11 @@ struct Verdict {
   RelaxedLimits limits;  ///< those that were tried
 };
 
-/// `base`: of the machine as it is, done, with a frame rate.
-Verdict find_verdict(const Machine& machine, const EvaluationResult& base, Thoroughness thoroughness,
+/// What gains most when it alone is taken away; of FIFOs which one, and what depth is enough; where nothing
+/// gains alone, the fewest that gain together. Some fifteen evaluations at most, and as many FIFOs as are
+/// ever full where these limit. `base`: of the machine as it is, done, with a frame rate. When interrupted,
+/// what was found so far.
+Verdict find_verdict(const MachineConfig& config, const EvaluationResult& base, Thoroughness thoroughness,
                      const Trial& trial);
 
 /// Adds it to the group "limit" of a run's metrics.

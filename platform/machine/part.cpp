@@ -41,8 +41,9 @@ const char* name_of(Relief relief) {
   return "";
 }
 
-bool Part::is_relieved_by(Relief relief) const {
-  return std::find(relieved_by.begin(), relieved_by.end(), relief) != relieved_by.end();
+std::string spoken(std::string name) {
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
 }
 
 }  // namespace parallax

@@ -32,6 +32,8 @@ enum class Relief {
 
 /// "core_clock".
 const char* name_of(Relief relief);
+/// The name of a part or relief in a sentence: "core clock".
+std::string spoken(std::string name);
 
 /// What can be at work, and so limit the frame rate.
 enum class PartKind {
@@ -56,8 +58,6 @@ struct Part {
   std::optional<StageInfo> stage{};  ///< of a stage
   const MemoryPort* port = nullptr;  ///< of a DMA engine
   bool core_waits = false;           ///< the core may wait for it while it counts as at work
-
-  bool is_relieved_by(Relief relief) const;
 };
 
 }  // namespace parallax

@@ -42,7 +42,7 @@ TEST_F(Relax, NamesWhatWasMadeSlow) {
   EXPECT_EQ(
       limit(alone + "--set memory.model=bus --set memory.bytes_per_cycle=1 --set clocks.memory_hz=10e6"),
       "memory");
-  EXPECT_EQ(limit("--size 320x240 -d 64 --set streams.left_texture.depth=64"), "fifos");
+  EXPECT_EQ(limit("--size 320x240 -d 64 --set streams.left_texture.depth=64"), "fifo_left_texture");
 }
 
 TEST_F(Relax, ASecondBufferGainsWhatSendingTakes) {

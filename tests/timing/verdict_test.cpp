@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "platform/evaluation/verdict.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "platform/evaluation/evaluation_pool.hpp"
+#include "platform/input/image_padding.hpp"
+#include "tests/timing/random_machine.hpp"
+
+namespace parallax::test {
+namespace verdict_test {
+
+/// A machine that can be evaluated with relaxations.
+class Subject {
+ public:
+  Subject(int width, int height, const std::vector<std::string>& assignments)
+      : config_(preset(assignments)),
+        size_(padded_size({width, height}, config_.image.granularity())),
+        map_(encode(lens_map(size_.width, size_.height, config_.rectification.range))),
+        pool_([=](const Variant& variant, const NoticeSink&) {
+          ConfigurationRequest request;
+          request.assignments = assignments;
+          request.changes = variant.assignments;
+          EvaluationCase one{load_configuration(request, {source_path("platform/presets")}), {}};
+          one.input.width = width;
+          one.input.height = height;
+          one.input.map = &map_;
+          return one;
+        }),
+        base_(try_out({{}}).front()) {}
+
+  const EvaluationResult& base() const { return base_; }
+  Verdict verdict(Thoroughness thoroughness) {
+    evaluations_ = 0;
+    return find_verdict(config_, base_, thoroughness, [this](const std::vector<Relaxation>& some) {
+      evaluations_ += some.size();
+      std::vector<Variant> variants;
+      for (const Relaxation& relaxation : some) variants.push_back({relaxation.assignments});
+      return try_out(variants);
+    });
+  }
+  /// Of the last verdict.
+  std::size_t evaluations() const { return evaluations_; }
+
+ private:
+  std::vector<EvaluationResult> try_out(const std::vector<Variant>& variants) {
+    std::vector<EvaluationResult> results;
+    pool_.evaluate(
+        variants, [] { return false; },
+        [&](std::size_t, EvaluationResult result) { results.push_back(std::move(result)); });
+    return results;
+  }
+
+  const MachineConfig config_;
+  const cv::Size size_;
+  const EncodedMap map_;
+  EvaluationPool pool_;
+  const EvaluationResult base_;
+  std::size_t evaluations_ = 0;
+};
+
+std::vector<std::string> exactly(std::vector<std::string> assignments) {
+  assignments.insert(assignments.end(), {"image.width_granularity=1", "image.height_granularity=1"});
+  return assignments;
+}
+
+TEST(Verdict, NothingGainsMoreThanWhatItNames) {
+  int measured = 0;
+  for (std::uint32_t seed = 1; seed <= (sanitized() ? 3U : 20U); ++seed) {
+    const MachineCase c = random_machine(seed, Contention::kAny);
+    Subject subject(c.width, c.height, exactly(c.assignments()));
+    if (!subject.base().done()) continue;
+    ++measured;
+    const Verdict quick = subject.verdict(Thoroughness::kUntilCertain);
+    const Verdict all = subject.verdict(Thoroughness::kAll);
+    const RelaxedLimit& most = all.limits.alone.front();  // each limit alone is tried there
+    for (const Verdict& verdict : {quick, all}) {
+      const double named = verdict.limits.limit ? verdict.limits.limit->gain : 0;
+      EXPECT_LE(most.gain, named + RelaxedLimit::kNoise)
+          << "seed " << seed << ": " << most.relaxation.name << " gains more\n"
+          << verdict.sentence << '\n'
+          << c.text();
+    }
+    EXPECT_EQ(quick.limits.limit_name(), all.limits.limit_name()) << "seed " << seed << '\n'
+                                                                  << quick.sentence << '\n'
+                                                                  << all.sentence;
+  }
+  EXPECT_GE(measured, sanitized() ? 1 : 12);
+}
+
+const std::vector<std::string> kSmall{"rectification.window=9", "software.response_ns=0",
+                                      "software.queue_frames=true", "link.host_pixel_rate=0",
+                                      "link.line_rate=10000000000"};
+
+std::vector<std::string> small(const std::vector<std::string>& more) {
+  std::vector<std::string> all = kSmall;
+  all.insert(all.end(), more.begin(), more.end());
+  return exactly(all);
+}
+
+TEST(Verdict, NamesTheFifoAndADepthThatIsEnough) {
+  Subject subject(64, 48, small({"streams.costs_uniqueness.depth=2"}));
+  for (const Thoroughness thoroughness : {Thoroughness::kUntilCertain, Thoroughness::kAll}) {
+    const Verdict verdict = subject.verdict(thoroughness);
+    ASSERT_TRUE(verdict.limits.limit);
+    EXPECT_EQ(verdict.limits.limit_name(), "fifo_costs_uniqueness");
+    EXPECT_EQ(verdict.sentence.rfind("FIFO costs_uniqueness with its depth of 2 limits", 0), 0U)
+        << verdict.sentence;
+    EXPECT_NE(verdict.sentence.find("; a depth of 16 gives "), std::string::npos) << verdict.sentence;
+    EXPECT_EQ(verdict.limits.limit->relaxation.assignments,
+              std::vector<std::string>{"streams.costs_uniqueness.depth=16"});
+    EXPECT_LE(subject.evaluations(), 40U);
+  }
+}
+
+TEST(Verdict, NamesTwoFifosThatHoldTogether) {
+  Subject subject(64, 48, small({"streams.costs_uniqueness.depth=2", "streams.costs_consistency.depth=2"}));
+  const Verdict verdict = subject.verdict(Thoroughness::kUntilCertain);
+  ASSERT_TRUE(verdict.limits.limit);
+  const std::string name = verdict.limits.limit_name();
+  EXPECT_TRUE(name == "fifo_costs_consistency+fifo_costs_uniqueness" ||
+              name == "fifo_costs_uniqueness+fifo_costs_consistency")
+      << name << '\n'
+      << verdict.sentence;
+  EXPECT_NE(verdict.sentence.find(" limit together"), std::string::npos) << verdict.sentence;
+}
+
+TEST(Verdict, NamesTwoLimitsThatAreEqual) {
+  // The host takes 1e6 / (64 * 48) = 325.52 frames/s.
+  Subject subject(64, 48, small({"link.host_pixel_rate=1000000", "camera.frame_rate=325.5"}));
+  for (const Thoroughness thoroughness : {Thoroughness::kUntilCertain, Thoroughness::kAll}) {
+    const Verdict verdict = subject.verdict(thoroughness);
+    EXPECT_EQ(verdict.limits.limit_name(), "camera+host") << verdict.sentence;
+    EXPECT_EQ(verdict.sentence.rfind(
+                  "camera and host limit together; cameras without limits and a host of any rate "
+                  "give ",
+                  0),
+              0U)
+        << verdict.sentence;
+    ASSERT_TRUE(verdict.limits.limit);
+    EXPECT_GT(verdict.limits.limit->gain, 10);
+  }
+}
+
+}  // namespace verdict_test
+}  // namespace parallax::test
