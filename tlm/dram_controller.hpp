@@ -19,9 +19,10 @@ struct DramPolicy {
   std::size_t write_queue = 32;     ///< bursts, 1 to 1024
   std::size_t high_watermark = 26;  ///< writes queued at which a batch of them begins, at most write_queue
   std::size_t low_watermark = 6;    ///< writes queued at which it ends when reads wait, below high_watermark
-  std::size_t longest_batch = 64;   ///< writes, 1 to 1024, that go while reads wait; then reads have their turn
-  std::int64_t efficiency = 100;    ///< percent of the time that column commands may take, 1 to 100: what a
-                                    ///< real controller loses beyond the devices' timing
+  std::size_t longest_batch =
+      64;                         ///< writes, 1 to 1024, that go while reads wait; then reads have their turn
+  std::int64_t efficiency = 100;  ///< percent of the time that column commands may take, 1 to 100: what a
+                                  ///< real controller loses beyond the devices' timing
 
   /// Throws UserError when a value is out of its range.
   void validate() const;

@@ -45,7 +45,7 @@ class Run {
         notes_(context, true),
         configuration_(load_configuration(options.configuration, preset_folders())),
         images_(options, configuration_.machine, [this](const std::string& line) { notes_(line); }),
-        frames_(frames_to_simulate(configuration_.machine, images_.frames(), options.timing_frames)),
+        length_(run_length(configuration_.machine, images_.frames(), options.timing_frames)),
         trace_choice_(read_trace_options(options.trace)) {}
 
   int execute() {
@@ -54,8 +54,8 @@ class Run {
       folder_->replace(is_result_name);
     }
     RunFrames writer(images_, folder_.get(), frame_options(), configuration_.machine.matching.range().last());
-    Simulation simulation(frames_, interrupted_);
-    progress_ = std::make_unique<Progress>(context_.err, shows_progress(context_), "frames", frames_);
+    Simulation simulation(length_.most, interrupted_);
+    progress_ = std::make_unique<Progress>(context_.err, shows_progress(context_), "frames", length_.most);
     // Before this process simulates.
     if (options_.verdict || options_.report)
       trials_.emplace(options_.configuration, timing_input(), context_, interruption_);
@@ -85,7 +85,8 @@ class Run {
     input.width = images_.padded().width;
     input.height = images_.padded().height;
     input.map = &images_.map();
-    input.frames = frames_;
+    input.frames = length_.most;
+    input.least_frames = length_.least;
     input.timing_only = options_.timing_only;
     input.expose = [this, &simulation](std::int64_t frame) {
       const bool has_images = !options_.timing_only && frame < images_.frames();
@@ -111,8 +112,8 @@ class Run {
     input.height = images_.size().height;
     input.map = &images_.map();
     // A run that was asked to be short is compared with short ones.
-    const std::int64_t usual = frames_to_simulate(configuration_.machine, 1, std::nullopt);
-    if (options_.timing_frames && *options_.timing_frames < usual)
+    const RunLength usual = run_length(configuration_.machine, 1, std::nullopt);
+    if (options_.timing_frames && *options_.timing_frames < usual.least)
       input.timing_frames = options_.timing_frames;
     return input;
   }
@@ -134,7 +135,7 @@ class Run {
       return kNotAsExpected;
     }
     MetricGroup metrics = measure(machine, totals, images_.size().width, images_.size().height);
-    const bool judged = !trials_ || judge(machine, metrics);
+    const bool judged = !trials_ || judge(metrics);
     const nlohmann::ordered_json tree = results.write(metrics, profile_.get(), writer);
     if (!judged) return interrupted(writer);
     results.print(metrics, tree);
@@ -142,11 +143,11 @@ class Run {
   }
 
   // Adds what limits, but not of a single frame, which has no rate. Says no when it was interrupted.
-  bool judge(const Machine& machine, MetricGroup& metrics) {
+  bool judge(MetricGroup& metrics) {
     const EvaluationResult base = measured(metrics);
     if (base.rate == 0) return true;
     const Verdict verdict = find_verdict(
-        machine, base, options_.report ? Thoroughness::kAll : Thoroughness::kUntilOneGains,
+        configuration_.machine, base, options_.report ? Thoroughness::kAll : Thoroughness::kUntilCertain,
         [this](const std::vector<Relaxation>& relaxations) { return trials_->try_out(relaxations); });
     if (interrupted_()) return false;
     if (options_.report) folder_->write("relaxations.json", json_text(to_json(verdict.limits), 2) + "\n");
@@ -166,7 +167,7 @@ class Run {
   Notes notes_;
   const Configuration configuration_;
   const RunImages images_;
-  const std::int64_t frames_;
+  const RunLength length_;
   const TraceChoice trace_choice_;
   const Interruption interruption_;
   const std::function<bool()> interrupted_ = [this] { return interruption_.requested(); };

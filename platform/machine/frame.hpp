@@ -23,6 +23,7 @@ struct FrameTimes {
   sc_core::sc_time
       in_memory;  ///< both images in memory, or camera.early_start_rows of them: the core can start
   sc_core::sc_time core_started;     ///< by software
+  sc_core::sc_time read;             ///< both images, by the core: their frame buffer is free
   sc_core::sc_time first_disparity;  ///< first disparity out of the last filter
   sc_core::sc_time last_disparity;   ///< last disparity out of the last filter
   sc_core::sc_time results_in_memory;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <systemc>
 #include <vector>
@@ -31,6 +32,13 @@ class FrameLatencies {
   explicit FrameLatencies(std::size_t steady_first)
       : steady_first_(steady_first), steady_(frame_spans().size()) {}
 
+  /// The steady state begins with this frame, later than was thought.
+  void begin_anew(std::size_t frame) {
+    steady_first_ = frame;
+    std::fill(steady_.begin(), steady_.end(), LatencyHistogram());
+  }
+  /// Number of the first frame of the steady state.
+  std::size_t steady_first() const { return steady_first_; }
   /// Frame `frame` is at the host; in order.
   void add(std::size_t frame, const FrameTimes& times) {
     if (frame == 0) first_ = times;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "platform/machine/frame_ledger.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "platform/machine/steady_state.hpp"
@@ -9,15 +10,23 @@ namespace parallax {
 namespace {
 
 // Records that are kept beyond the warm-up, at the beginning and at the end of a run: more frames than can be
-// under way.
-constexpr std::size_t kRecords = 160;
+// under way, and than a queue usually takes to fill, as the steady state begins with one of them.
+constexpr std::size_t kRecords = 1024;
+
+// By which the phases of two clocks move a latency.
+sc_core::sc_time few_cycles(const MachineConfig& config) {
+  const ClockConfig& clocks = config.clocks;
+  const std::int64_t slowest = std::min({clocks.core_hz, clocks.camera_hz, clocks.link_hz});
+  return sc_core::sc_time(4.0 / static_cast<double>(slowest), sc_core::SC_SEC);
+}
 
 }  // namespace
 
 FrameLedger::FrameLedger(const MachineConfig& config, std::int64_t frames, StepListener listener)
     : kept_(warm_up_frames(config) + kRecords),
       listener_(std::move(listener)),
-      latencies_(steady_first(config, frames)) {
+      latencies_(steady_first(config, frames)),
+      trend_(steady_first(config, frames), few_cycles(config)) {
   times_.keep(kept_);
   snapshots_.keep(kept_);
 }
@@ -64,6 +73,19 @@ void FrameLedger::at_host(std::int64_t frame) {
   times.at_host = sc_core::sc_time_stamp();
   tell(frame, FrameStep::kAtHost);
   latencies_.add(frame, times);
+  follow_trend(frame);
+}
+
+// Two frames after those that had a trend there is a frame rate again.
+void FrameLedger::follow_trend(std::int64_t frame) {
+  if (begins_anew_ && frame == *begins_anew_ + 1) {
+    latencies_.begin_anew(*begins_anew_);
+    for (std::int64_t since = *begins_anew_; since <= frame; ++since) latencies_.add(since, of(since));
+    begins_anew_.reset();
+  }
+  const FrameTimes& times = of(frame);
+  if (trend_.add(frame, times.at_host - times.exposed) && static_cast<std::size_t>(frame) + 2 < kept_)
+    begins_anew_ = frame + 1;
 }
 
 }  // namespace parallax

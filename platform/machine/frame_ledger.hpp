@@ -10,6 +10,7 @@
 #include "platform/config/machine_config.hpp"
 #include "platform/machine/frame.hpp"
 #include "platform/machine/frame_latencies.hpp"
+#include "platform/machine/latency_trend.hpp"
 #include "platform/machine/machine_snapshot.hpp"
 #include "tlm/kept_records.hpp"
 #include "traces/trace_event.hpp"
@@ -18,7 +19,7 @@ namespace parallax {
 
 /// What is known of the frames of a run: the dates at which each came to the parts of the machine, how long
 /// that took, whether it carries images. The parts write it; whoever follows frames is told of each step.
-/// Of long runs the first and the last frames are kept only, at least 160 beyond the warm-up.
+/// Of long runs the first and the last frames are kept only, at least 1024 beyond the warm-up.
 class FrameLedger {
  public:
   using StepListener = std::function<void(std::int64_t frame, FrameStep step)>;
@@ -34,6 +35,8 @@ class FrameLedger {
   void in_memory(std::int64_t frame);
   /// The core has been started with it, now.
   void core_started(std::int64_t frame);
+  /// The core has read the images of the next frame, now.
+  void images_read() { of(read_++).read = sc_core::sc_time_stamp(); }
   /// Its results are in memory, now; its first and its last disparity left the last filter at these dates.
   void results_in_memory(std::int64_t frame, const sc_core::sc_time& first_disparity,
                          const sc_core::sc_time& last_disparity);
@@ -48,11 +51,14 @@ class FrameLedger {
   const KeptRecords<MachineSnapshot>& snapshots() const { return snapshots_; }
   /// Of all frames at the host.
   const FrameLatencies& latencies() const { return latencies_; }
+  /// Likewise, from exposure to the host.
+  const LatencyTrend& trend() const { return trend_; }
   /// The number of records that are kept of the beginning of a run, and of its end.
   std::size_t kept() const { return kept_; }
 
  private:
   FrameTimes& of(std::int64_t frame) { return times_[frame]; }
+  void follow_trend(std::int64_t frame);
   void tell(std::int64_t frame, FrameStep step) const;
 
   const std::size_t kept_;
@@ -60,6 +66,9 @@ class FrameLedger {
   KeptRecords<FrameTimes> times_;
   KeptRecords<MachineSnapshot> snapshots_;
   FrameLatencies latencies_;
+  LatencyTrend trend_;
+  std::optional<std::int64_t> begins_anew_;  // frame with which the steady state begins once more
+  std::int64_t read_ = 0;                    // frames whose images the core has read
   std::vector<bool> values_;
 };
 

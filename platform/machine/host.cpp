@@ -49,9 +49,12 @@ FrameResult Host::unpack(std::int64_t frame, const std::vector<std::uint8_t>& by
 
 void Host::receive(std::int64_t frame, const std::vector<std::uint8_t>& bytes) {
   const FrameResult result = unpack(frame, bytes);
-  if (frames_ == input_.frames) return;  // the simulation goes on, though the run is over
+  if (done_) return;  // the simulation goes on, though the run is over
   if (input_.deliver) input_.deliver(result);
-  if (++frames_ < input_.frames) return;
+  ++frames_;
+  done_ =
+      frames_ == input_.frames || (input_.least_frames > 0 && frames_ >= input_.least_frames && settled_());
+  if (!done_) return;
   input_.finished ? input_.finished() : sc_core::sc_stop();
 }
 

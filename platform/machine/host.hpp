@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <functional>
+#include <utility>
 #include <vector>
 
 #include "modules/output_packing.hpp"
@@ -21,9 +23,14 @@ namespace parallax {
 /// carry.
 class Host final : public RowListener<Disparity> {
  public:
-  /// `input` and `tiles` must outlive the object.
-  Host(const MachineInput& input, const TilePlan& tiles, OutputLeft left)
-      : input_(input), tiles_(tiles), left_(left), disparity_rows_(tiles.width) {}
+  /// `input` and `tiles` must outlive the object. `settled` says, after input.least_frames, whether the run
+  /// can end.
+  Host(const MachineInput& input, const TilePlan& tiles, OutputLeft left, std::function<bool()> settled)
+      : input_(input),
+        tiles_(tiles),
+        left_(left),
+        settled_(std::move(settled)),
+        disparity_rows_(tiles.width) {}
 
   /// The pipeline's next row of disparities, `tiles.width` px: of a frame, tile by tile, row by row.
   void expect(const Disparity* row);
@@ -36,6 +43,8 @@ class Host final : public RowListener<Disparity> {
   void receive(std::int64_t frame, const std::vector<std::uint8_t>& bytes);
   /// Frames received.
   std::int64_t frames() const { return frames_; }
+  /// It has the last one.
+  bool done() const { return done_; }
 
  private:
   FrameResult unpack(std::int64_t frame, const std::vector<std::uint8_t>& bytes);
@@ -43,11 +52,13 @@ class Host final : public RowListener<Disparity> {
   const MachineInput& input_;
   const TilePlan& tiles_;
   const OutputLeft left_;
+  const std::function<bool()> settled_;
   RowCollector<Disparity> disparity_rows_;
   std::deque<std::vector<Disparity>> expected_;  // frames that have left the pipeline and are not here
   std::vector<Disparity> leaving_;               // of the frame that is leaving it
   std::size_t rows_ = 0;                         // of this one, of all its tiles
   std::int64_t frames_ = 0;
+  bool done_ = false;
 };
 
 }  // namespace parallax

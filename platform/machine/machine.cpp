@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "platform/machine/machine.hpp"
 
-#include <algorithm>
 #include <memory>
 
 #include "tlm/bus_scheduler.hpp"
@@ -59,7 +58,7 @@ Machine::Machine(const sc_core::sc_module_name& name, const MachineConfig& confi
                 [this](std::int64_t frame, std::uint64_t address) {
                   transmission_.send(frame, address, ledger_.has_values(frame));
                 }),
-      host_(input_, tiles_, config_.link.output_left()),
+      host_(input_, tiles_, config_.link.output_left(), [this] { return settled(); }),
       ports_(collect_ports()) {
   core_.pipeline().keep_frames(ledger_.kept());
   for (const MemoryPort* port : ports_) {
@@ -92,13 +91,22 @@ StereoCore::Hooks Machine::core_hooks() {
     software_.core_started();
     ledger_.core_started(frame);
   };
-  hooks.read = [this] { acquisition_.release(); };
+  hooks.read = [this] {
+    ledger_.images_read();
+    acquisition_.release();
+  };
   hooks.begun = [this](std::int64_t frame) { software_.results_begun(frame); };
   hooks.written = [this](std::int64_t frame, const CoreDates& dates) {
     ledger_.results_in_memory(frame, dates.first_disparity, dates.last_disparity);
     software_.core_ended(frame);
   };
   return hooks;
+}
+
+// Cameras that find no buffer for a frame, or are not ready for it, do so in a rhythm of many frames.
+bool Machine::settled() const {
+  const CameraCounts& cameras = snapshots().back().cameras;
+  return trend().settled() && cameras.dropped == 0 && cameras.missed == 0;
 }
 
 void Machine::received(std::int64_t frame, const std::vector<std::uint8_t>& bytes) {
@@ -156,12 +164,6 @@ std::vector<Part> Machine::collect_parts() const {
   add(core_.parts());
   add(transmission_.parts());
   return all;
-}
-
-const Part* Machine::find_part(const std::string& name) const {
-  const auto found =
-      std::find_if(parts_.begin(), parts_.end(), [&](const Part& p) { return p.name == name; });
-  return found == parts_.end() ? nullptr : &*found;
 }
 
 MachineSnapshot Machine::snapshot() {

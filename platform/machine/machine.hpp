@@ -37,7 +37,9 @@ class Machine final : public sc_core::sc_module {
   Machine(const sc_core::sc_module_name& name, const MachineConfig& config, const MachineInput& input);
 
   /// Whether the host has all frames; false after a run means that the machine got stuck.
-  bool finished() const { return host_.frames() == input_.frames; }
+  bool finished() const { return host_.done(); }
+  /// That the host has.
+  std::int64_t frames() const { return host_.frames(); }
 
   const MachineConfig& config() const { return config_; }
   const MachineInput& input() const { return input_; }
@@ -47,6 +49,7 @@ class Machine final : public sc_core::sc_module {
   const KeptRecords<MachineSnapshot>& snapshots() const { return ledger_.snapshots(); }
   /// Of all frames that the host has.
   const FrameLatencies& latencies() const { return ledger_.latencies(); }
+  const LatencyTrend& trend() const { return ledger_.trend(); }
   const Pipeline& pipeline() const { return core_.pipeline(); }
   const Dataflow& dataflow() const { return dataflow_; }
   /// None when the run brought another memory along.
@@ -63,8 +66,6 @@ class Machine final : public sc_core::sc_module {
   /// All that can limit the frame rate, in the order in which data meets them: memory, cameras, DMA engines,
   /// software, core, stages, link, host. From the start of the simulation on.
   const std::vector<Part>& parts() const { return parts_; }
-  /// By the name in results; null if there is none of that name.
-  const Part* find_part(const std::string& name) const;
   const TilePlan& tiles() const { return tiles_; }
   /// The rectification map as it lies in memory: cut for the tiles.
   const EncodedMap& map() const { return tiles_.tiles.size() > 1 ? tiled_map_ : *input_.map; }
@@ -83,6 +84,7 @@ class Machine final : public sc_core::sc_module {
   std::vector<MemoryPort*> collect_ports();
   std::vector<Part> collect_parts() const;
   MachineSnapshot snapshot();
+  bool settled() const;
 
   const MachineConfig config_;
   const MachineInput input_;

@@ -21,7 +21,8 @@ struct MachineInput {
   int width = 0;   ///< px, of the images as they are processed
   int height = 0;  ///< px
   const EncodedMap* map = nullptr;
-  std::int64_t frames = 1;
+  std::int64_t frames = 1;         ///< of the run
+  std::int64_t least_frames = 0;   ///< after so many it may end when it is steady; 0: after `frames`
   StageReplacements replacements;  ///< what stands in the place of stages of the pipeline
   bool timing_only = false;        ///< no frame has images, so the memory need not hold any
   /// Called, if there is one, with the socket of each memory port, to bind it: another memory in the place of
@@ -39,7 +40,8 @@ struct MachineInput {
   /// Called, if there is one, when a frame comes to a step, at that date: exposed, first byte in memory, in
   /// memory, core started, results in memory, at the host. Of the frames after the last one, too.
   std::function<void(std::int64_t frame, FrameStep step)> step;
-  /// Called once, when the host has all frames; if there is none, the simulation is stopped then (sc_stop).
+  /// Called once, when the host has the last frame; if there is none, the simulation is stopped then
+  /// (sc_stop).
   std::function<void()> finished;
   /// Called, if there is one, once a frame, in order, when the host has it; not for what follows the last
   /// one.

@@ -12,30 +12,34 @@ namespace {
 
 // After the warm-up: two frame periods lie between three arrivals at the host.
 constexpr std::int64_t kMeasuredFrames = 3;
-// With cameras that go their own way.
+// Where no frame is like the one before.
 constexpr std::int64_t kManyFrames = 100;
 
 }  // namespace
 
 std::int64_t warm_up_frames(const MachineConfig& config) {
-  return std::int64_t{config.camera.frame_buffers} + config.link.output_buffers;
+  // A frame waits in full frame buffers for one that waits in full output buffers.
+  return std::int64_t{config.camera.frame_buffers} + config.link.output_buffers + 2;
 }
 
 std::size_t steady_first(const MachineConfig& config, std::int64_t frames) {
   return std::max<std::int64_t>(0, std::min(warm_up_frames(config), frames - 2));
 }
 
-std::int64_t frames_to_simulate(const MachineConfig& config, std::int64_t input_frames,
-                                std::optional<std::int64_t> asked) {
-  std::int64_t measured = kMeasuredFrames;
-  if (config.camera.frame_rate > 0 || config.camera.fault != CameraFault::kNone) {
-    // Buffers fill, or not; frames jitter, and some are lost: of these, whole rounds.
-    const std::int64_t round = config.camera.fault == CameraFault::kNone
-                                   ? 1
-                                   : std::max<std::int64_t>(1, std::int64_t{config.camera.fault_every} - 1);
-    measured = 1 + (kManyFrames + round - 1) / round * round;
-  }
-  return std::max(input_frames, asked.value_or(warm_up_frames(config) + measured));
+RunLength run_length(const MachineConfig& config, std::int64_t input_frames,
+                     std::optional<std::int64_t> asked) {
+  const auto at_least_input = [&](std::int64_t frames) { return std::max(input_frames, frames); };
+  if (asked) return {at_least_input(*asked), at_least_input(*asked)};
+  const std::int64_t warm_up = warm_up_frames(config);
+  const std::int64_t few = at_least_input(warm_up + kMeasuredFrames);
+  if (config.camera.frame_rate == 0 && config.camera.fault == CameraFault::kNone) return {few, few};
+  // Of faulty frames, whole rounds.
+  const std::int64_t round = config.camera.fault == CameraFault::kNone
+                                 ? 1
+                                 : std::max<std::int64_t>(1, std::int64_t{config.camera.fault_every} - 1);
+  const std::int64_t many = at_least_input(warm_up + 1 + (kManyFrames + round - 1) / round * round);
+  const bool alike = config.camera.jitter_ns == 0 && config.camera.fault == CameraFault::kNone;
+  return {alike ? few : many, many};
 }
 
 SteadyWindow steady_window(const Machine& machine) {
@@ -46,7 +50,7 @@ SteadyWindow steady_window(const Machine& machine) {
     window.text = "frame 1";
     return window;
   }
-  window.first = steady_first(machine.config(), machine.input().frames);
+  window.first = machine.latencies().steady_first();
   window.period =
       (snapshots[window.last].time - snapshots[window.first].time).to_seconds() / window.divisor();
   window.text = fmt::format("frames {} to {}", window.first + 2, window.last + 1);

@@ -12,19 +12,25 @@ namespace parallax {
 
 class Machine;
 
-/// Frames until all buffers have been filled and handed on once; before that the rate is that of buffers
-/// filling.
+/// Frames until all buffers have been filled and handed on once, and the first that found them so are
+/// through; before that the rate and the latency are those of buffers filling.
 std::int64_t warm_up_frames(const MachineConfig& config);
 
 /// Number of the first frame of the steady state in a run of `frames`; where that is shorter than the
 /// warm-up, of its last but one.
 std::size_t steady_first(const MachineConfig& config, std::int64_t frames);
 
-/// Frames that a run simulates: all of the input, and at least `asked`; if nothing is asked, so many that two
-/// frame periods lie after the warm-up, or a hundred and more where cameras have a rate of their own or
-/// faults.
-std::int64_t frames_to_simulate(const MachineConfig& config, std::int64_t input_frames,
-                                std::optional<std::int64_t> asked);
+/// How many frames a run simulates.
+struct RunLength {
+  std::int64_t least = 1;
+  std::int64_t most = 1;  ///< when the steady state has not come before
+};
+
+/// All frames of the input, and at least `asked`; if nothing is asked, so many that two frame periods lie
+/// after the warm-up. Where triggers jitter or frames have faults, a hundred and more; at most so many where
+/// cameras have a rate of their own, of which a machine that keeps up with it needs few.
+RunLength run_length(const MachineConfig& config, std::int64_t input_frames,
+                     std::optional<std::int64_t> asked);
 
 /// The frames between whose arrivals at the host the steady state is measured.
 struct SteadyWindow {
@@ -38,8 +44,8 @@ struct SteadyWindow {
   double divisor() const { return frames() == 0 ? 1.0 : static_cast<double>(frames()); }
 };
 
-/// All frames of a run after the warm-up; where the run is shorter than that, its last two. The host must
-/// have a frame.
+/// All frames of a run after the warm-up, and after those whose latency had a trend (LatencyTrend); where the
+/// run is shorter than the warm-up, its last two. The host must have a frame.
 SteadyWindow steady_window(const Machine& machine);
 
 }  // namespace parallax

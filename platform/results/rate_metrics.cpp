@@ -3,8 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
+
+#include "tlm/time_resolution.hpp"
 
 namespace parallax {
 namespace {
@@ -39,12 +43,20 @@ void add_latency(const MetricWriter& out, const Machine& machine, const SteadyWi
   }
 }
 
+std::string names_of(const std::vector<Relief>& reliefs) {
+  std::string names;
+  for (const Relief relief : reliefs) names += (names.empty() ? "" : " ") + std::string(name_of(relief));
+  return names;
+}
+
 void add_limit(const MetricWriter& out, const Machine& machine, const SteadyWindow& window) {
   if (window.frames() == 0) return;
   const std::vector<PartLoad> all = part_loads(machine, window);
   const Limit limit = find_limit(all);
   out.add("limit/part", limit.limited ? limit.busiest.part->name : std::string("none"));
   out.add("limit/key", limit.limited ? limit.busiest.part->key : limit.otherwise);
+  out.add("limit/relieved_by",
+          limit.limited ? names_of(limit.busiest.part->relieved_by) : std::string("none"));
   out.add("limit/utilisation", 100.0 * limit.busiest.share);
   const PartLoad& next = limit.limited ? limit.next : limit.busiest;
   out.add("limit/next_part", next.part->name);
@@ -53,11 +65,63 @@ void add_limit(const MetricWriter& out, const Machine& machine, const SteadyWind
     out.of(load.part->name).add("limit/utilisation_by_part/<part>", 100.0 * load.share);
 }
 
+// From exposure to the host when no buffer is free any more, s: a frame then waits in all of them. A frame
+// buffer is exposed into again as soon as the frame in it has been read; where link or host are what the
+// others wait for, the core starts when the oldest output buffer has been sent.
+double latency_when_full(const Machine& machine, const SteadyWindow& window, const Limit& limit) {
+  const MachineConfig& config = machine.config();
+  const FrameTimes& last = machine.times()[window.last];
+  const double exposure = nanoseconds(config.camera.exposure_ns).to_seconds();
+  const PartKind kind = limit.busiest.part->kind;
+  if (kind != PartKind::kLink && kind != PartKind::kHost) {
+    return config.camera.frame_buffers * window.period + (last.at_host - last.read).to_seconds() - exposure;
+  }
+  const double buffers = config.camera.frame_buffers + config.link.output_buffers;
+  return buffers * window.period - (last.read - last.core_started).to_seconds() -
+         nanoseconds(config.software.response_ns).to_seconds() - exposure;
+}
+
+void add_steady(const MetricWriter& out, const Machine& machine, const SteadyWindow& window) {
+  if (window.frames() == 0) return;
+  const LatencyTrend& trend = machine.trend();
+  out.add("steady/frames", static_cast<std::int64_t>(window.frames() + 1));
+  out.add("steady/established", std::string(!trend.known() ? "unknown" : trend.settled() ? "yes" : "no"));
+  out.add("steady/latency_trend", trend.slope() * 1e3);
+  if (trend.slope() <= 0) return;
+  const double full = latency_when_full(machine, window, find_limit(part_loads(machine, window)));
+  const FrameTimes& last = machine.times()[window.last];
+  const double more = std::max(0.0, full - (last.at_host - last.exposed).to_seconds());
+  out.add("steady/latency_when_full", full * 1e3);
+  out.add("steady/frames_until_full", static_cast<std::int64_t>(std::ceil(more / trend.slope())));
+}
+
 }  // namespace
 
 const MetricTable& rate_table() {
   constexpr const char* kRelaxed = "a run of the machine without that limit";
   static const MetricTable table{
+      {"steady/frames", "frames",
+       "Frames of the steady state: those after the warm-up (as many as there are buffers), and after those "
+       "whose "
+       "latency had a trend.",
+       kSteadyState},
+      {"steady/established", "",
+       "yes: the latency of the last frames, from exposure to the host, has no trend. no: each frame waits "
+       "longer "
+       "(or shorter) than the one before, as a queue between parts of nearly the same pace fills (or "
+       "empties): the "
+       "rate is right, latencies are those of these frames. unknown: fewer than three frames after the "
+       "warm-up.",
+       kSteadyState},
+      {"steady/latency_trend", "ms", "By how much the latency grows from frame to frame; 0 without a trend.",
+       kSteadyState},
+      {"steady/latency_when_full", "ms",
+       "With a rising trend: the latency from exposure to the host that frames come to when no buffer is "
+       "free any "
+       "more.",
+       kSteadyState},
+      {"steady/frames_until_full", "frames", "With a rising trend: about as many frames later.",
+       kSteadyState},
       {"performance/frame_rate", "frames/s",
        "Rate at which the host receives frames; 0 when there is one frame only.", kSteadyState},
       {"performance/disparities_per_second", "1/s", "Frame rate times processed pixels, valid or not.",
@@ -85,6 +149,8 @@ const MetricTable& rate_table() {
        "fills anew.",
        kSteadyState},
       {"limit/key", "", "The configuration keys that move this limit.", kSteadyState},
+      {"limit/relieved_by", "",
+       "The limits of --relax without which this part would be faster, separated by blanks.", kSteadyState},
       {"limit/utilisation", "%", "Share of the time in which the busiest part is at work.", kSteadyState},
       {"limit/next_part", "", "The part that would limit if this one did not.", kSteadyState},
       {"limit/next_frame_rate", "frames/s", "The frame rate at which the next part would limit.",
@@ -98,9 +164,9 @@ const MetricTable& rate_table() {
        "three out).",
        kRelaxed},
       {"limit/relaxation", "",
-       "The limit that gains most when it alone is taken away, of those that were tried: that of the busiest "
-       "part, and all "
-       "others where it gains nothing.",
+       "The limit that gains most when it alone is taken away; fifo_ and a stream for a single FIFO, several "
+       "names joined "
+       "by + where they gain only together.",
        kRelaxed},
       {"limit/relaxed_frame_rate", "frames/s", "The frame rate without that limit.", kRelaxed},
       {"limit/relaxed_part", "", "The part that limits then.", kRelaxed},
@@ -110,6 +176,7 @@ const MetricTable& rate_table() {
 
 void add_rates(MetricGroup& root, const Machine& machine, const SteadyWindow& window) {
   const MetricWriter out = MetricWriter(root, rate_table()).over(window.text);
+  add_steady(out, machine, window);
   add_performance(out, machine, window);
   add_latency(out, machine, window);
   add_limit(out, machine, window);

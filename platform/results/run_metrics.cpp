@@ -39,7 +39,7 @@ void add_input(MetricGroup& root, const Machine& machine, const RunTotals& total
   const DisparityRange range = machine.config().matching.range();
   out.add("input/disparity_range", std::int64_t{range.count});
   out.add("input/disparity_offset", std::int64_t{range.offset});
-  out.add("input/frames", machine.input().frames);
+  out.add("input/frames", machine.finished() ? machine.frames() : machine.input().frames);
   out.add("input/frames_with_images", totals.frames);
 }
 

@@ -119,6 +119,19 @@ std::string quality_lines(const MetricGroup& m) {
                     quality->number("bad_3"), quality->number("mean_error"));
 }
 
+// Where the latency is not steady.
+std::string trend_line(const MetricGroup& m) {
+  const double trend = m.number_or("steady/latency_trend", 0);
+  if (trend == 0) return "";
+  std::string line = fmt::format("                    it is not steady, but {} by {:.4f} ms a frame",
+                                 trend > 0 ? "grows" : "falls", std::abs(trend));
+  if (const Metric* const full = m.find("steady/latency_when_full")) {
+    line += fmt::format(" until all buffers are full, to some {:.3f} ms in about {} frames (--timing-frames)",
+                        full->number(), m.count("steady/frames_until_full"));
+  }
+  return line + "\n";
+}
+
 }  // namespace
 
 std::string summary(const MetricGroup& m) {
@@ -145,6 +158,7 @@ std::string summary(const MetricGroup& m) {
   text += fmt::format("                    {:.3f} ms from exposure to the host, first frame {:.3f} ms\n",
                       m.number("latency/exposure_to_host_mean"),
                       m.number("latency/exposure_to_host_first_frame"));
+  text += trend_line(m);
   if (m.count("camera/dropped_frames") + m.count("camera/missed_triggers") + m.count("camera/faulty_frames") >
       0) {
     text += fmt::format(

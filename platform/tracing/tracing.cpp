@@ -39,7 +39,8 @@ sc_core::sc_time row_time(const Machine& machine) {
 }
 
 RecorderConfig recorder_config(const TraceChoice& choice, const Machine& machine) {
-  choice.window.check(machine.input().frames, machine.input().height);
+  const MachineInput& input = machine.input();
+  choice.window.check(input.least_frames > 0 ? input.least_frames : input.frames, input.height);
   RecorderConfig config;
   config.window = choice.window;
   config.tokens = choice.tokens;

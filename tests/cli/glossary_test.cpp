@@ -90,6 +90,9 @@ TEST_F(Glossary, NamesEveryNumberAndNoOther) {
       "run --timing-only --size 96x64 -d 32 --set camera.frame_rate=60 --set camera.fault=missing_row "
       "--set camera.fault_every=3 --json");
   check("run --timing-only --rectified --size 96x64 --preset core-alone --json");
+  check(
+      "run --timing-only --no-verdict --size 320x240 --set link.host_pixel_rate=0 --set link.line_rate=10e9 "
+      "--set clocks.camera_hz=39e6 --json");
   program_.folder().write("trace.csv", "time_ns,rw,addr,bytes\n0,R,0x0,64\n0,W,0x8000,64\n");
   check("memory trace.csv --config ddr3-1066-x32 --json");
   for (const Entry& entry : entries_) EXPECT_TRUE(entry.occurs) << "no run writes " << entry.name;

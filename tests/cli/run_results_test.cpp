@@ -184,7 +184,7 @@ TEST_F(RunResults, OfTheBuiltInScene) {
   }
   EXPECT_NEAR(tree["run"]["speed"]["value"].get<double>() * tree["run"]["wall_time"]["value"].get<double>(),
               tree["run"]["simulated_time"]["value"].get<double>(), 1e-9);
-  EXPECT_EQ(tree["performance"]["frame_rate"]["window"], "frames 8 to 9");
+  EXPECT_EQ(tree["performance"]["frame_rate"]["window"], "frames 10 to 11");
   EXPECT_GT(tree["performance"]["frame_rate"]["value"], 0);
   EXPECT_TRUE(tree["quality"].contains("bad_2"));
   EXPECT_TRUE(tree["configuration"].is_object());
@@ -223,7 +223,7 @@ TEST_F(RunResults, OfASequence) {
   const json tree = timing("out/");
   check_metrics(tree, "");
   EXPECT_EQ(tree["input"]["frames_with_images"]["value"], 3);
-  EXPECT_EQ(tree["input"]["frames"]["value"], 9);
+  EXPECT_EQ(tree["input"]["frames"]["value"], 11);
 }
 
 TEST_F(RunResults, OfAFrameAlone) {

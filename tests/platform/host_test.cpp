@@ -63,7 +63,8 @@ class HostCheck : public ::testing::Test {
 
   MachineInput input_;
   const TilePlan tiles_ = two_tiles();
-  Host host_{input_, tiles_, OutputLeft::kGrey};
+  bool settled_ = false;
+  Host host_{input_, tiles_, OutputLeft::kGrey, [this] { return settled_; }};
   std::vector<std::uint8_t> bytes_;
   std::vector<FrameResult> results_;
   bool finished_ = false;
@@ -97,6 +98,24 @@ TEST_F(HostCheck, AFrameWithoutValuesIsDeliveredEmpty) {
   ASSERT_EQ(results_.size(), 1u);
   EXPECT_TRUE(results_[0].disparities.empty());
   EXPECT_TRUE(finished_);
+}
+
+TEST_F(HostCheck, TheRunEndsWhenItIsSettledAndHasTheLeast) {
+  input_.frames = 5;
+  input_.least_frames = 2;
+  settled_ = true;
+  host_.receive(0, {});
+  EXPECT_FALSE(host_.done());
+  settled_ = false;
+  host_.receive(1, {});
+  EXPECT_FALSE(host_.done());
+  settled_ = true;
+  host_.receive(2, {});
+  EXPECT_TRUE(host_.done());
+  EXPECT_TRUE(finished_);
+  host_.receive(3, {});
+  EXPECT_EQ(host_.frames(), 3);
+  EXPECT_EQ(results_.size(), 3u);
 }
 
 }  // namespace host_test

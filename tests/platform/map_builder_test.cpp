@@ -13,6 +13,7 @@
 #include "modules/rectification.hpp"
 #include "platform/images/image_codecs.hpp"
 #include "platform/input/map_fit.hpp"
+#include "platform/input/read_calibration.hpp"
 #include "tests/paths.hpp"
 #include "tests/platform/test_calibrations.hpp"
 

@@ -44,7 +44,8 @@ class NaiveDram {
   void choose(std::int64_t now) {
     if (!writing_) {
       const bool reads_have_their_turn = turn_ > 0 && !reads_.empty();
-      if ((writes_.size() >= policy_.high_watermark && !reads_have_their_turn) || (reads_.empty() && !writes_.empty())) {
+      if ((writes_.size() >= policy_.high_watermark && !reads_have_their_turn) ||
+          (reads_.empty() && !writes_.empty())) {
         writing_ = true;
         kept_waiting_ = 0;
       }

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "platform/machine/latency_trend.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <vector>
+
+namespace parallax::test {
+namespace latency_trend_test {
+
+sc_core::sc_time us(double value) { return sc_core::sc_time(value, sc_core::SC_US); }
+
+TEST(LatencyTrend, EqualLatenciesHaveNone) {
+  LatencyTrend trend(4, us(0.1));
+  for (std::size_t frame = 0; frame < 30; ++frame) EXPECT_FALSE(trend.add(frame, us(5000)));
+  EXPECT_TRUE(trend.known());
+  EXPECT_TRUE(trend.settled());
+  EXPECT_EQ(trend.slope(), 0);
+}
+
+TEST(LatencyTrend, IsKnownAfterThreeFrames) {
+  LatencyTrend trend(4, us(0.1));
+  for (std::size_t frame = 0; frame < 6; ++frame) trend.add(frame, us(5000));
+  EXPECT_FALSE(trend.known());
+  EXPECT_FALSE(trend.settled());
+  trend.add(6, us(5000));
+  EXPECT_TRUE(trend.known());
+  EXPECT_TRUE(trend.settled());
+}
+
+TEST(LatencyTrend, AQueueThatFillsHasOneUntilItIsFull) {
+  LatencyTrend trend(0, us(0.1));
+  for (std::size_t frame = 0; frame < 40; ++frame) {
+    EXPECT_EQ(trend.add(frame, us(5000.0 + 18.0 * static_cast<double>(frame))),
+              frame % LatencyTrend::kBlock == LatencyTrend::kBlock - 1);
+    EXPECT_EQ(trend.settled(), false) << frame;
+  }
+  EXPECT_NEAR(trend.slope(), 18e-6, 1e-9);
+  // The block in which it is full rises too, the next one does not.
+  for (std::size_t frame = 40; frame < 56; ++frame) trend.add(frame, us(5720));
+  EXPECT_TRUE(trend.settled());
+  EXPECT_EQ(trend.slope(), 0);
+}
+
+TEST(LatencyTrend, AQueueThatEmptiesHasOne) {
+  LatencyTrend trend(0, us(0.1));
+  for (std::size_t frame = 0; frame < 3; ++frame)
+    trend.add(frame, us(5000.0 - 4.0 * static_cast<double>(frame)));
+  EXPECT_FALSE(trend.settled());
+  EXPECT_NEAR(trend.slope(), -4e-6, 1e-9);
+}
+
+// Phases of clocks: a few cycles; the refresh and jitter: up and down.
+TEST(LatencyTrend, PhasesAndJitterAreNone) {
+  LatencyTrend phases(0, us(0.1));
+  for (std::size_t frame = 0; frame < 40; ++frame)
+    EXPECT_FALSE(phases.add(frame, us(100.0 + 0.01 * static_cast<double>(frame))));
+  EXPECT_TRUE(phases.settled());
+  std::mt19937 random(1);
+  LatencyTrend jitter(0, us(0.1));
+  for (std::size_t frame = 0; frame < 400; ++frame)
+    EXPECT_FALSE(jitter.add(frame, us(5000.0 + static_cast<double>(random() % 1000)))) << frame;
+}
+
+}  // namespace latency_trend_test
+}  // namespace parallax::test
