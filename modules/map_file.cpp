@@ -110,6 +110,7 @@ void check_fields(const std::vector<std::uint8_t>& bytes, const std::string& nam
   require(get(bytes, kReservedAt, 2) == 0, kReservedAt, "reserved bytes are not zero");
   require(width >= 1 && width <= kLargestSide, kWidthAt, "width outside 1..65535");
   require(height >= 1 && height <= kLargestSide, kHeightAt, "height outside 1..65535");
+  require(width * height <= kMostMapPixels, kWidthAt, "more than 67108864 pixels");
   require(bytes.size() >= kHeaderBytes + height * kRowLengthBytes, kHeightAt,
           "more rows than the file can hold");
 }

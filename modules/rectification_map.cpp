@@ -54,11 +54,18 @@ RectificationMap RectificationMap::columns(int first, int count) const {
   return part;
 }
 
+void check_map_size(std::int64_t width, std::int64_t height) {
+  if (width * height <= kMostMapPixels) return;
+  throw UserError(fmt::format("a rectification map of {}x{} px: it may have {} at most, as {}x{} has", width,
+                              height, kMostMapPixels, kMostMapPixels / 8192, 8192));
+}
+
 RectificationMap identity_map(int width, int height, const OffsetRange& range) {
   range.validate();
   if (width < 1 || height < 1) {
     throw UserError(fmt::format("identity map: {}x{} is not an image size", width, height));
   }
+  check_map_size(width, height);
   return {width, height, range, std::vector<OffsetPair>(area(width, height))};
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "modules/pixel.hpp"
@@ -48,6 +49,12 @@ struct RectificationMap {
   /// relative.
   RectificationMap columns(int first, int count) const;
 };
+
+/// Pixels that a map may have: what is made of one stays in memory. The hardware's largest image has a
+/// twentieth of it.
+constexpr std::int64_t kMostMapPixels = std::int64_t{1} << 26;
+/// Throws UserError for more.
+void check_map_size(std::int64_t width, std::int64_t height);
 
 /// The map of a pair that is rectified already: all offsets zero.
 RectificationMap identity_map(int width, int height, const OffsetRange& range = {});

@@ -3,6 +3,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 namespace parallax {
 
@@ -13,5 +14,9 @@ class UserError : public std::runtime_error {
  public:
   explicit UserError(const std::string& line) : std::runtime_error(line) {}
 };
+
+/// Text of the user's as a message quotes it: at most so many bytes, then "..."; what is no character to be
+/// read, such as the end of a line, is a blank.
+std::string excerpt(std::string_view text, std::size_t most = 60);
 
 }  // namespace parallax

@@ -68,6 +68,8 @@ Metric metric_of(const std::string& name, const Json& entry) {
   if (!entry.contains("unit")) throw MetricError("it has no unit");
   Metric metric{name, {}, text_of(entry, "unit"), text_of(entry, "description"), text_of(entry, "window")};
   read_value(entry.at("value"), metric);
+  if (!metric.unit.empty() && std::holds_alternative<std::string>(metric.value))
+    throw MetricError(fmt::format("its value is a text, and a number of {} is expected", metric.unit));
   return metric;
 }
 

@@ -68,7 +68,7 @@ int replay_trace(const MemoryOptions& options, CommandContext& context) {
     throw UserError(fmt::format("--trace-mhz is {:g}, allowed is 0.001 to 1000000", *options.trace_mhz));
   const auto mapping = mappings().find(options.mapping);
   if (mapping == mappings().end()) {
-    throw UserError(fmt::format("--mapping is '{}', expected rbc, brc or rbcg", options.mapping));
+    throw UserError(fmt::format("--mapping is '{}', expected rbc, brc or rbcg", excerpt(options.mapping)));
   }
   DramTiming timing = load_dram_device(options.config, preset_folders());
   if (options.no_refresh) timing.refi = 0;

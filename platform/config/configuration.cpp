@@ -37,6 +37,8 @@ std::string origins_of(const std::string& line, const RawConfig& raw) {
 RawValue iterations_for(std::int64_t range, const Schema& schema) {
   const std::string origin = fmt::format("--disparities {}", range);
   const auto parallelism = std::get<std::int64_t>(schema.find("matching.parallelism")->get());
+  constexpr std::int64_t kMost = 1'000'000;  // far beyond what any key allows
+  if (range > kMost) throw UserError(fmt::format("{}: must be at most {}", origin, kMost));
   if (range <= 0 || range % parallelism != 0) {
     const std::int64_t below = range / parallelism * parallelism;
     throw UserError(

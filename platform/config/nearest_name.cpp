@@ -27,7 +27,9 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
 
 }  // namespace
 
-std::string nearest_name(const std::string& name, const std::vector<std::string>& names) {
+std::string nearest_name(const std::string& word, const std::vector<std::string>& names) {
+  constexpr std::size_t kLongest = 200;  // beyond it nothing is near, and the distance takes its time
+  const std::string name = word.substr(0, kLongest);
   const auto nearest = std::min_element(names.begin(), names.end(), [&](const auto& a, const auto& b) {
     return edit_distance(name, a) < edit_distance(name, b);
   });

@@ -18,6 +18,8 @@ namespace {
 namespace fs = std::filesystem;
 using Folders = std::vector<fs::path>;
 
+constexpr std::size_t kLongestChain = 64;
+
 }  // namespace
 
 bool is_preset_path(const std::string& name) {
@@ -53,14 +55,14 @@ fs::path find_file(const std::string& name, const fs::path& relative_to, const F
   if (is_preset_path(name)) {
     fs::path file = relative_to.empty() ? fs::path(name) : (relative_to / name).lexically_normal();
     if (fs::exists(file, ignored)) return file;
-    throw UserError(fmt::format("{}{} file {} does not exist", before, what, file.string()));
+    throw UserError(fmt::format("{}{} file {} does not exist", before, what, excerpt(file.string(), 300)));
   }
   for (const fs::path& folder : folders) {
     fs::path file = folder / (name + ".toml");
     if (fs::exists(file, ignored)) return file;
   }
   const std::string nearest = nearest_name(name, names_in(folders));
-  throw UserError(fmt::format("{}no {} '{}' in {}{}{}", before, what, name, joined(folders),
+  throw UserError(fmt::format("{}no {} '{}' in {}{}{}", before, what, excerpt(name), joined(folders),
                               nearest.empty() ? "" : "; the nearest is ", nearest));
 }
 
@@ -69,6 +71,10 @@ int load(const fs::path& file, const Folders& folders, const std::string& what, 
          RawConfig& values) {
   PresetFile preset = read_preset_file(file, what);
   chain.push_back(file);
+  if (chain.size() > kLongestChain) {
+    throw UserError(fmt::format("{}: inherits from more than {} presets one after another, from {} on",
+                                file.string(), kLongestChain, chain.front().string()));
+  }
   int layer = 0;
   if (preset.inherits) {
     // A family of presets in one folder finds its own members first.
@@ -76,7 +82,10 @@ int load(const fs::path& file, const Folders& folders, const std::string& what, 
     around.insert(around.end(), folders.begin(), folders.end());
     const fs::path parent =
         find_file(*preset.inherits, file.parent_path(), around, preset.inherits_origin + ": ", what);
-    const auto same = [&](const fs::path& other) { return fs::equivalent(other, parent); };
+    const auto same = [&](const fs::path& other) {
+      std::error_code ignored;
+      return fs::equivalent(other, parent, ignored);
+    };
     if (std::any_of(chain.begin(), chain.end(), same)) {
       std::string cycle;
       for (const fs::path& link : chain) cycle += link.filename().string() + " -> ";

@@ -85,12 +85,12 @@ class Reader {
         throw UserError(fmt::format(
             "{}: the tag of {} must be \"S\" (stated), \"D\" (derived), \"I\" (inferred), \"F\" (fitted) or "
             "\"C\" (own choice)",
-            origin(node), key));
+            origin(node), excerpt(key)));
       } else if (field == "source") {
-        throw UserError(fmt::format("{}: the source of {} must be text", origin(node), key));
+        throw UserError(fmt::format("{}: the source of {} must be text", origin(node), excerpt(key)));
       } else {
         throw UserError(fmt::format("{}: {} has an unknown part '{}'; it may have value, tag and source",
-                                    origin(node), key, std::string(field.str())));
+                                    origin(node), excerpt(key), excerpt(field.str())));
       }
     }
   }
@@ -139,7 +139,7 @@ std::string trimmed(const std::string& text) {
 }  // namespace
 
 std::pair<std::string, RawValue> read_assignment(const std::string& argument) {
-  const std::string origin = "--set " + argument;
+  const std::string origin = "--set " + excerpt(argument);
   const auto equals = argument.find('=');
   if (equals == std::string::npos || equals == 0) throw UserError(origin + ": must have the form key=value");
   if (equals + 1 == argument.size()) throw UserError(origin + ": the value is empty");
@@ -148,6 +148,7 @@ std::pair<std::string, RawValue> read_assignment(const std::string& argument) {
   RawConfig ignored;
   RawValue raw;
   try {
+    check_toml_depth(text, origin);
     const toml::table table = toml::parse("value = " + text);
     raw = Reader(origin, ignored).value(*table.get("value"), key);
     if (table.size() != 1) raw.value = ConfigValue(text);

@@ -171,11 +171,11 @@ void Schema::apply(const std::string& path, const RawValue& raw) {
     const bool is_section = std::any_of(keys_.begin(), keys_.end(),
                                         [&](const Key& k) { return k.path.rfind(path + ".", 0) == 0; });
     if (is_section && not_a_value && not_a_value->empty_section) return;
-    if (is_section) throw UserError(fmt::format("{}: {} is a section, not a key", raw.origin, path));
+    if (is_section) throw UserError(fmt::format("{}: {} is a section, not a key", raw.origin, excerpt(path)));
     std::vector<std::string> paths;
     for (const Key& k : keys_) paths.push_back(k.path);
-    throw UserError(
-        fmt::format("{}: unknown key {}; the nearest is {}", raw.origin, path, nearest_name(path, paths)));
+    throw UserError(fmt::format("{}: unknown key {}; the nearest is {}", raw.origin, excerpt(path),
+                                nearest_name(path, paths)));
   }
   if (not_a_value) {
     throw UserError(
@@ -185,7 +185,7 @@ void Schema::apply(const std::string& path, const RawValue& raw) {
   const auto fitting = fit(*key, value);
   if (!fitting) {
     throw UserError(
-        fmt::format("{}: {} = {}: must be {}", raw.origin, path, to_toml(value), key->expected()));
+        fmt::format("{}: {} = {}: must be {}", raw.origin, path, excerpt(to_toml(value)), key->expected()));
   }
   key->set(*fitting);
   key->provenance = {raw.tag.value_or(Tag::kChoice), raw.source.value_or(raw.origin)};
@@ -194,7 +194,8 @@ void Schema::apply(const std::string& path, const RawValue& raw) {
 void Schema::check() const {
   for (const Key& key : keys_) {
     if (!fit(key, key.get())) {
-      throw UserError(fmt::format("{} = {}: must be {}", key.path, to_toml(key.get()), key.expected()));
+      throw UserError(
+          fmt::format("{} = {}: must be {}", key.path, excerpt(to_toml(key.get())), key.expected()));
     }
   }
 }

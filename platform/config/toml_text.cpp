@@ -3,43 +3,82 @@
 
 #include <fmt/format.h>
 
+#include <cctype>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <sstream>
 
 #include "tlm/error.hpp"
 
 namespace parallax {
 namespace {
 
-std::string one_line(std::string text) {
-  for (char& c : text) {
-    if (c == '\n' || c == '\r') c = ' ';
-  }
-  return text;
-}
+constexpr std::size_t kMostBytes = 16 << 20;
 
 std::string content_of(const std::filesystem::path& file, const std::string& what) {
   std::ifstream stream(file, std::ios::binary);
-  std::ostringstream content;
-  if (std::filesystem::is_directory(file)) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(file, ignored)) {
     throw UserError(fmt::format("{}: is a folder, not a {} file", file.string(), what));
   }
   if (!stream)
     throw UserError(fmt::format("{}: cannot read the {}: {}", file.string(), what, std::strerror(errno)));
-  content << stream.rdbuf();
-  return content.str();
+  std::string content(kMostBytes + 1, '\0');
+  stream.read(content.data(), static_cast<std::streamsize>(content.size()));
+  content.resize(static_cast<std::size_t>(stream.gcount()));
+  if (content.size() > kMostBytes) {
+    throw UserError(fmt::format("{}: has more than {} MiB, too much for a {} file", file.string(),
+                                kMostBytes >> 20, what));
+  }
+  return content;
+}
+
+/// How many parts the dotted key has that begins here, as in a.b."c d"; 0 for none. `at` ends behind it.
+std::size_t key_parts(const std::string& text, std::size_t& at) {
+  const auto blanks = [&] {
+    while (at < text.size() && (text[at] == ' ' || text[at] == '\t')) ++at;
+  };
+  for (std::size_t parts = 0;; ++parts) {
+    const std::size_t begin = at;
+    if (at < text.size() && (text[at] == '"' || text[at] == '\'')) {
+      const std::size_t end = text.find(text[at], at + 1);
+      if (end == std::string::npos) return parts;
+      at = end + 1;
+    } else {
+      while (at < text.size() &&
+             (std::isalnum(static_cast<unsigned char>(text[at])) != 0 || text[at] == '_' || text[at] == '-'))
+        ++at;
+    }
+    if (at == begin) return parts;
+    blanks();
+    if (at >= text.size() || text[at] != '.') return parts + 1;
+    ++at;
+    blanks();
+  }
 }
 
 }  // namespace
 
+void check_toml_depth(const std::string& text, const std::string& origin) {
+  constexpr std::size_t kMostParts = 64;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t begin = at;
+    if (key_parts(text, at) > kMostParts) {
+      throw UserError(fmt::format("{}: {}: a key of more than {} parts, such as no key has", origin,
+                                  excerpt(text.substr(begin, at - begin)), kMostParts));
+    }
+    if (at == begin) ++at;
+  }
+}
+
 toml::table read_toml(const std::filesystem::path& file, const std::string& what) {
+  const std::string content = content_of(file, what);
+  check_toml_depth(content, file.string());
   try {
-    return toml::parse(content_of(file, what));
+    return toml::parse(content);
   } catch (const toml::parse_error& error) {
     throw UserError(fmt::format("{}:{}: {}", file.string(), error.source().begin.line,
-                                one_line(std::string(error.description()))));
+                                excerpt(error.description(), 200)));
   }
 }
 

@@ -8,7 +8,6 @@
 #include <cerrno>
 #include <cstring>
 #include <memory>
-#include <sstream>
 
 #include "platform/input/input_file.hpp"
 #include "platform/input/trace_formats.hpp"
@@ -17,32 +16,61 @@
 namespace parallax {
 namespace {
 
-constexpr std::uint64_t kUsualBytes = 64;  // a line of a cache
-constexpr double kLatestTime = 1e12;       // ns: a refresh is a step, and this many take seconds
+constexpr std::uint64_t kUsualBytes = 64;           // a line of a cache
+constexpr double kLatestTime = 1e12;                // ns: a refresh is a step, and this many take seconds
+constexpr std::size_t kMostRequests = 100'000'000;  // 3 GB of memory
 
-std::string unpacked_file(const std::string& path) {
-  const std::unique_ptr<gzFile_s, int (*)(gzFile)> file(gzopen(path.c_str(), "rb"), gzclose);
-  if (!file) throw UserError(fmt::format("{}: cannot be read: {}", path, std::strerror(errno)));
-  std::string text;
-  std::array<char, 1 << 16> buffer{};
-  for (;;) {
-    const int read = gzread(file.get(), buffer.data(), buffer.size());
-    if (read < 0) {
-      int code = 0;
-      const char* const what = gzerror(file.get(), &code);
-      throw UserError(
-          fmt::format("{}: cannot be read: {}", path, code == Z_ERRNO ? std::strerror(errno) : what));
-    }
-    if (read == 0) {
-      int code = Z_OK;
-      gzerror(file.get(), &code);
-      if (code == Z_BUF_ERROR)
-        throw UserError(fmt::format("{}: ends in the middle of the compressed data", path));
-      return text;
-    }
-    text.append(buffer.data(), read);
+// The lines of a file, plain or compressed.
+class Lines {
+ public:
+  explicit Lines(const std::string& path) : path_(path), file_(gzopen(path.c_str(), "rb"), gzclose) {
+    if (!file_) throw UserError(fmt::format("{}: cannot be read: {}", path, std::strerror(errno)));
   }
-}
+
+  /// Says no behind the last one.
+  bool next(std::string& line) {
+    line.clear();
+    for (;;) {
+      const char* const begin = buffer_.data() + at_;
+      const auto* const newline = static_cast<const char*>(std::memchr(begin, '\n', end_ - at_));
+      line.append(begin, newline == nullptr ? end_ - at_ : static_cast<std::size_t>(newline - begin));
+      ++number_;
+      if (line.size() > kLongestLine)
+        throw UserError(fmt::format("{}:{}: has more than {} characters", path_, number_, kLongestLine));
+      if (newline != nullptr) {
+        at_ += static_cast<std::size_t>(newline - begin) + 1;
+        return true;
+      }
+      if (!fill()) return !line.empty();
+      --number_;
+    }
+  }
+  int number() const { return number_; }
+
+ private:
+  static constexpr std::size_t kLongestLine = 1000;
+  static constexpr unsigned kChunk = 1U << 16;
+
+  bool fill() {
+    const int read = gzread(file_.get(), buffer_.data(), unsigned{kChunk});
+    int code = Z_OK;
+    const char* const what = gzerror(file_.get(), &code);
+    if (read < 0)
+      throw UserError(
+          fmt::format("{}: cannot be read: {}", path_, code == Z_ERRNO ? std::strerror(errno) : what));
+    if (read == 0 && code == Z_BUF_ERROR)
+      throw UserError(fmt::format("{}: ends in the middle of the compressed data", path_));
+    at_ = 0;
+    end_ = static_cast<std::size_t>(read);
+    return read > 0;
+  }
+
+  const std::string path_;
+  const std::unique_ptr<gzFile_s, int (*)(gzFile)> file_;
+  std::array<char, kChunk> buffer_{};
+  std::size_t at_ = 0, end_ = 0;
+  int number_ = 0;
+};
 
 // A line without comment, carriage return and blanks at its ends.
 std::string content_of(std::string line) {
@@ -88,23 +116,23 @@ bool ends_with(const std::string& text, const std::string& end) {
 
 std::vector<TraceRequest> read_address_trace(const std::string& path, const TraceReading& reading,
                                              const std::function<void(const std::string&)>& notice) {
-  std::string text = unpacked_file(path);
-  if (text.rfind(kByteOrderMark, 0) == 0) text.erase(0, kByteOrderMark.size());
   if (ends_with(path, ".rstl") || ends_with(path, ".rstl.gz")) {
     throw UserError(fmt::format(
         "{}: times that count from the end of the request before are not replayed; expected a .stl trace",
         path));
   }
-  std::istringstream in(text);
+  Lines lines(path);
   std::vector<TraceRequest> trace;
   const TraceFormat* format = nullptr;
   Taken as;
   std::string raw;
   double latest = 0;
-  for (int number = 1; std::getline(in, raw); ++number) {
+  while (lines.next(raw)) {
+    const int number = lines.number();
     const auto fail = [&](const std::string& fault) {
       return UserError(fmt::format("{}:{}: {}", path, number, fault));
     };
+    if (number == 1 && raw.rfind(kByteOrderMark, 0) == 0) raw.erase(0, kByteOrderMark.size());
     const std::string line = content_of(raw);
     if (line.empty()) continue;
     if (format == nullptr) {
@@ -129,6 +157,7 @@ std::vector<TraceRequest> read_address_trace(const std::string& path, const Trac
                              format->has_cycles ? "the cycle" : "time_ns", time, latest));
     }
     latest = time;
+    if (trace.size() == kMostRequests) throw fail(fmt::format("more than {} requests", kMostRequests));
     trace.push_back(request);
   }
   if (trace.empty()) throw UserError(fmt::format("{}: holds no request", path));

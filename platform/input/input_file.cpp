@@ -30,6 +30,10 @@ std::vector<std::uint8_t> read_file(const std::string& path) {
   std::vector<std::uint8_t> chunk(std::size_t{1} << 16);
   while (const std::size_t count = std::fread(chunk.data(), 1, chunk.size(), file.get())) {
     bytes.insert(bytes.end(), chunk.begin(), chunk.begin() + count);
+    if (bytes.size() > kMostFileBytes) {
+      throw UserError(
+          fmt::format("{}: has more than {} MiB, the most that is read", path, kMostFileBytes >> 20));
+    }
   }
   if (std::ferror(file.get()) != 0) fail(path, errno);
   return bytes;

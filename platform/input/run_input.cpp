@@ -34,7 +34,7 @@ std::unique_ptr<FrameSource> scene(const RunOptions& options, const MachineConfi
     char rest = 0;
     if (std::sscanf(options.size.c_str(), "%5dx%5d%c", &scene_config.width, &scene_config.height, &rest) !=
         2) {
-      throw UserError(fmt::format("--size: '{}' is not a size such as 640x480", options.size));
+      throw UserError(fmt::format("--size: '{}' is not a size such as 640x480", excerpt(options.size)));
     }
   }
   const ImageLimits most = limits(config);

@@ -67,21 +67,22 @@ std::optional<bool> is_write(const std::string& word) {
 
 std::string read_operation(const std::string& word, TraceRequest& request) {
   const auto write = is_write(word);
-  if (!write) return fmt::format("the operation is '{}', expected one such as R or W", word);
+  if (!write) return fmt::format("the operation is '{}', expected one such as R or W", excerpt(word));
   request.write = *write;
   return "";
 }
 
 std::string read_address(const std::string& word, int base, TraceRequest& request) {
   const auto number = whole_number(word, base);
-  if (!number) return fmt::format("the address is '{}', expected one such as 0x1000, below 2^62", word);
+  if (!number)
+    return fmt::format("the address is '{}', expected one such as 0x1000, below 2^62", excerpt(word));
   request.address = *number;
   return "";
 }
 
 std::string read_cycle(const std::string& word, TraceRequest& request) {
   const auto number = whole_number(word, 10);
-  if (!number) return fmt::format("the cycle is '{}', expected a whole number", word);
+  if (!number) return fmt::format("the cycle is '{}', expected a whole number", excerpt(word));
   request.time_ns = static_cast<double>(*number);
   return "";
 }
@@ -89,7 +90,7 @@ std::string read_cycle(const std::string& word, TraceRequest& request) {
 std::string read_length(const std::string& word, TraceRequest& request) {
   const auto number = whole_number(word, 10);
   if (!number || *number == 0 || *number > kLongestRequest)
-    return fmt::format("the length is '{}', expected a number from 1 to {}", word, kLongestRequest);
+    return fmt::format("the length is '{}', expected a number from 1 to {}", excerpt(word), kLongestRequest);
   request.bytes = *number;
   return "";
 }
@@ -107,16 +108,18 @@ std::string read_csv(const std::string& line, TraceRequest& request) {
   char* end = nullptr;
   request.time_ns = std::strtod(fields[0].c_str(), &end);
   if (fields[0].empty() || *end != '\0' || !(request.time_ns >= 0 && request.time_ns <= kLatestRequest))
-    return fmt::format("time_ns is '{}', expected a number from 0 to {:.0f}", fields[0], kLatestRequest);
+    return fmt::format("time_ns is '{}', expected a number from 0 to {:.0f}", excerpt(fields[0]),
+                       kLatestRequest);
   const std::string rw = lower(fields[1]);
-  if (rw != "r" && rw != "w") return fmt::format("rw is '{}', expected R or W", fields[1]);
+  if (rw != "r" && rw != "w") return fmt::format("rw is '{}', expected R or W", excerpt(fields[1]));
   request.write = rw == "w";
   const auto at = whole_number(fields[2], has_base_16(fields[2]) ? 16 : 10);
-  if (!at) return fmt::format("addr is '{}', expected an address such as 0x1000, below 2^62", fields[2]);
+  if (!at)
+    return fmt::format("addr is '{}', expected an address such as 0x1000, below 2^62", excerpt(fields[2]));
   request.address = *at;
   const auto bytes = whole_number(fields[3], has_base_16(fields[3]) ? 16 : 10);
   if (!bytes || *bytes == 0 || *bytes > kLongestRequest)
-    return fmt::format("bytes is '{}', expected a number from 1 to {}", fields[3], kLongestRequest);
+    return fmt::format("bytes is '{}', expected a number from 1 to {}", excerpt(fields[3]), kLongestRequest);
   request.bytes = *bytes;
   return "";
 }
@@ -239,9 +242,8 @@ const TraceFormat& trace_format_of(const std::string& line) {
   std::vector<std::string> forms;
   for (const TraceFormat& format : trace_formats())
     forms.push_back(fmt::format("'{}' ({})", format.form, format.name));
-  constexpr std::size_t kShown = 60;
   throw UserError(fmt::format("'{}' begins no trace that is known; {}expected a line such as {}",
-                              line.substr(0, kShown), other_format(line), fmt::join(forms, ", ")));
+                              excerpt(line), other_format(line), fmt::join(forms, ", ")));
 }
 
 }  // namespace parallax

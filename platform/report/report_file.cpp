@@ -135,7 +135,7 @@ std::string report_of(const fs::path& folder) {
     return report_page(input);
   } catch (const MetricError& error) {
     throw UserError(fmt::format("{}: its timing.json or relaxations.json is damaged, {}; run parallax again",
-                                folder.string(), error.what()));
+                                folder.string(), excerpt(error.what(), 200)));
   } catch (const Json::exception&) {
     // What is no metric: the configuration, the profile, the list of relaxations.
     throw UserError(

@@ -6,9 +6,9 @@
 #include <cerrno>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include "platform/results/result_schema.hpp"
 #include "tlm/error.hpp"
@@ -21,14 +21,33 @@ namespace fs = std::filesystem;
 
 std::string read(const fs::path& path) {
   std::ifstream in(path, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-  if (!in)
+  constexpr std::size_t kMost = std::size_t{256} << 20;
+  std::string text;
+  std::vector<char> chunk(std::size_t{1} << 16);
+  while (in.read(chunk.data(), static_cast<std::streamsize>(chunk.size())), in.gcount() > 0) {
+    text.append(chunk.data(), static_cast<std::size_t>(in.gcount()));
+    if (text.size() > kMost)
+      throw UserError(
+          fmt::format("{}: has more than {} MiB, no result has so many", path.string(), kMost >> 20));
+  }
+  if (in.bad() || text.empty())
     throw UserError(fmt::format("cannot read {}: {}", path.string(), std::generic_category().message(errno)));
   return text;
 }
 
+// No result is nested so deep, and what walks over one goes as deep.
+nlohmann::ordered_json parse(const fs::path& file) {
+  static constexpr int kDeepest = 32;
+  const auto check = [&file](int depth, nlohmann::ordered_json::parse_event_t, nlohmann::ordered_json&) {
+    if (depth <= kDeepest) return true;
+    throw UserError(fmt::format("{}: damaged, it is nested more than {} deep; run parallax again",
+                                file.string(), kDeepest));
+  };
+  return nlohmann::ordered_json::parse(read(file), check, false);
+}
+
 UserError damaged(const fs::path& file, const char* what) {
-  return UserError(fmt::format("{}: damaged, {}; run parallax again", file.string(), what));
+  return UserError(fmt::format("{}: damaged, {}; run parallax again", file.string(), excerpt(what, 200)));
 }
 
 void check_schema(const fs::path& file, const nlohmann::ordered_json& tree) {
@@ -41,7 +60,7 @@ void check_schema(const fs::path& file, const nlohmann::ordered_json& tree) {
   }
   if (const auto& version = tree.at(schema); version != kResultSchema) {
     throw UserError(fmt::format("{}: its schema/version is {}, this parallax reads {}; run it again",
-                                file.string(), json_text(version), kResultSchema));
+                                file.string(), excerpt(json_text(version)), kResultSchema));
   }
 }
 
@@ -75,12 +94,14 @@ RunReport read_run_report(const std::string& path) {
   } else if (!fs::exists(file, error)) {
     throw UserError(fmt::format("{}: no such file or folder", path));
   }
-  const auto tree = nlohmann::ordered_json::parse(read(file), nullptr, false);
+  const auto tree = parse(file);
   if (tree.is_discarded()) throw damaged(file, "this is no JSON");
   check_schema(file, tree);
   try {
     return report_in(file, tree);
   } catch (const MetricError& damage) {
+    throw damaged(file, damage.what());
+  } catch (const nlohmann::ordered_json::exception& damage) {
     throw damaged(file, damage.what());
   }
 }
@@ -88,7 +109,7 @@ RunReport read_run_report(const std::string& path) {
 nlohmann::ordered_json read_result_json(const std::string& path) {
   std::error_code error;
   if (!fs::exists(path, error)) return nullptr;
-  auto tree = nlohmann::ordered_json::parse(read(path), nullptr, false);
+  auto tree = parse(path);
   if (tree.is_discarded() || !tree.is_object()) throw damaged(path, "this is no JSON");
   return tree;
 }

@@ -58,7 +58,7 @@ const std::vector<std::string>& checked_parts(const std::vector<std::string>& pa
   for (const std::string& part : parts) {
     if (std::find(names.begin(), names.end(), part) == names.end()) {
       throw UserError(fmt::format("--trace-parts: there is no stage or memory port '{}'; the nearest is {}",
-                                  part, nearest_name(part, names)));
+                                  excerpt(part), nearest_name(part, names)));
     }
   }
   return parts;
@@ -73,14 +73,14 @@ TraceChoice read_trace_options(const TraceOptions& options) {
     if (std::find(formats.begin(), formats.end(), format) == formats.end()) {
       throw UserError(
           fmt::format("--trace {}: there is no format '{}'; there are perfetto, vcd, csv and json",
-                      options.formats, format));
+                      excerpt(options.formats), excerpt(format)));
     }
     if (std::find(choice.formats.begin(), choice.formats.end(), format) == choice.formats.end()) {
       choice.formats.push_back(format);
     }
   }
   if (!options.level.empty() && options.level != "rows" && options.level != "tokens") {
-    throw UserError(fmt::format("--trace-level {}: must be rows or tokens", options.level));
+    throw UserError(fmt::format("--trace-level {}: must be rows or tokens", excerpt(options.level)));
   }
   choice.tokens = options.level == "tokens";
   if (!options.from.empty()) choice.window.from = read_trace_bound("--trace-from", options.from);

@@ -39,7 +39,7 @@ class RowReader {
     for (const auto& [key, node] : table) {
       const std::string word(key.str());
       if (std::find(known.begin(), known.end(), word) == known.end()) {
-        throw UserError(fmt::format("{}: a row has no '{}'; the nearest is {}", origin(node), word,
+        throw UserError(fmt::format("{}: a row has no '{}'; the nearest is {}", origin(node), excerpt(word),
                                     nearest_name(word, known)));
       }
     }
@@ -98,7 +98,11 @@ class RowReader {
   }
   double number(const char* key, const char* expected) const {
     const auto value = required<double>(key, expected);
-    if (!std::isfinite(value)) fail(key, expected);
+    // Figures of machines lie far within: what does not would leave the range of a number when it is divided
+    // by.
+    constexpr double kMost = 1e30;
+    if (!std::isfinite(value) || std::abs(value) > kMost || (value != 0 && std::abs(value) < 1 / kMost))
+      fail(key, expected);
     return value;
   }
   void read_assignments(PublishedRow& row) const {
@@ -138,7 +142,7 @@ PublishedRows read_published_rows(const std::string& name,
     if (key == "description" || key == "preset") continue;
     if (key != "row" || !node.is_array_of_tables()) {
       throw UserError(fmt::format("{}:{}: unknown entry '{}'; there may be description, preset and [[row]]",
-                                  file.string(), node.source().begin.line, std::string(key.str())));
+                                  file.string(), node.source().begin.line, excerpt(key.str())));
     }
     for (const toml::node& row : *node.as_array()) {
       result.rows.push_back(RowReader(file.string(), *row.as_table()).read());
