@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "platform/commands/command_context.hpp"
+#include "platform/commands/common_options.hpp"
 #include "platform/commands/compare_runs_command.hpp"
 #include "platform/commands/config_command.hpp"
 #include "platform/commands/exit_codes.hpp"
@@ -52,16 +53,16 @@ std::vector<std::string> alternatives(const CLI::App& app, const std::string& wo
 std::string unexpected(const CLI::App& app, const std::string& argument) {
   const std::string word = argument.substr(0, argument.find('='));
   const bool is_option = word.rfind('-', 0) == 0;
-  if (!is_option && !app.get_subcommands().empty()) return fmt::format("unexpected argument '{}'", argument);
-  return fmt::format("unknown {} {}; the nearest is {}", is_option ? "option" : "command", word,
+  if (!is_option && !app.get_subcommands().empty())
+    return fmt::format("unexpected argument '{}'", excerpt(argument));
+  return fmt::format("unknown {} {}; the nearest is {}", is_option ? "option" : "command", excerpt(word),
                      nearest_name(word, alternatives(app, word)));
 }
 
-std::string one_line(std::string text) {
-  for (char& c : text) {
-    if (c == '\n') c = ' ';
-  }
-  return text;
+// Whatever the message holds, it is one line that a terminal shows.
+std::string one_line(const std::string& text) {
+  constexpr std::size_t kLongest = 2000;
+  return excerpt(text, kLongest);
 }
 
 int fail(std::ostream& err, const std::string& line) {
@@ -75,6 +76,9 @@ int fail_internally(std::ostream& err, const std::string& line) {
   return kInternalError;
 }
 
+// A message of CLI11 quotes what it could not read, however long that is, and some quote all that is allowed.
+constexpr std::size_t kLongestParseError = 300;
+
 /// Throws UserError with one line, or returns true when help or version was asked for and printed.
 bool parse(CLI::App& app, int argc, const char* const* argv, std::ostream& out) {
   try {
@@ -85,12 +89,26 @@ bool parse(CLI::App& app, int argc, const char* const* argv, std::ostream& out) 
   } catch (const CLI::ExtrasError&) {
     throw UserError(unexpected(app, app.remaining(true).front()));
   } catch (const CLI::ParseError& error) {
-    throw UserError(error.what());
+    throw UserError(excerpt(error.what(), kLongestParseError));
   }
   return false;
 }
 
 }  // namespace
+
+void add_commands(CLI::App& app, CommandContext& context) {
+  add_run_command(app, context);
+  add_config_command(app, context);
+  add_map_command(app, context);
+  add_scene_command(app, context);
+  add_memory_command(app, context);
+  add_registers_command(app, context);
+  add_glossary_command(app, context);
+  add_report_command(app, context);
+  add_compare_runs_command(app, context);
+  add_validate_command(app, context);
+  refuse_empty_values(app);
+}
 
 int run_command_line(int argc, const char* const* argv) {
   return run_command_line(argc, argv, std::cout, std::cerr);
@@ -110,16 +128,7 @@ int run_command_line(int argc, const char* const* argv, std::ostream& out, std::
   app.fallthrough();  // the options above may follow the command
 
   CommandContext context{out, err, CommandLine(argc, argv)};
-  add_run_command(app, context);
-  add_config_command(app, context);
-  add_map_command(app, context);
-  add_scene_command(app, context);
-  add_memory_command(app, context);
-  add_registers_command(app, context);
-  add_glossary_command(app, context);
-  add_report_command(app, context);
-  add_compare_runs_command(app, context);
-  add_validate_command(app, context);
+  add_commands(app, context);
 
   try {
     if (parse(app, argc, argv, out)) {

@@ -3,7 +3,16 @@
 
 #include <iosfwd>
 
+namespace CLI {
+class App;
+}
+
 namespace parallax {
+
+struct CommandContext;
+
+/// All commands with their options.
+void add_commands(CLI::App& app, CommandContext& context);
 
 /// The command line. Returns the exit code: 0 done and within budget; 1 the model ran and a check or budget
 /// failed; 2 bad input or configuration; 3 a fault of the program itself; 128 + the signal's number

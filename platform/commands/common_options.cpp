@@ -26,11 +26,22 @@ void add_seed_option(CLI::App& command, std::uint64_t& seed, const std::string& 
   const CLI::Validator whole(
       [](const std::string& text) {
         const bool digits = text.find_first_not_of("0123456789") == std::string::npos;
-        if (digits && !text.empty() && text.size() <= kMostDigits) return std::string();
+        if (digits && text.size() <= kMostDigits) return std::string();
         return "'" + text + "' is not a whole number of at most 18 digits";
       },
       "");
   command.add_option("--seed", seed, description)->check(whole)->capture_default_str();
+}
+
+void refuse_empty_values(CLI::App& app) {
+  const CLI::Validator not_empty(
+      [](const std::string& value) { return std::string(value.empty() ? "the value is empty" : ""); }, "");
+  for (CLI::Option* option : app.get_options()) {
+    if (option->get_items_expected_max() > 0) option->check(not_empty);
+  }
+  // All of them, groups of options too.
+  for (CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    refuse_empty_values(*command);
 }
 
 void add_json_option(CLI::App& command, bool& json) { command.add_flag("--json", json, "Print JSON"); }

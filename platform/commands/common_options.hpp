@@ -24,6 +24,10 @@ void add_configuration_options(CLI::App& command, ConfigurationRequest& request)
 /// --seed of the built-in scene, a whole number of at most 18 digits.
 void add_seed_option(CLI::App& command, std::uint64_t& seed, const std::string& description);
 
+/// Every option of every command, and every argument, takes no empty value: a script's unset variable must
+/// not turn into another run than the one that was meant. For a line whose commands are all there.
+void refuse_empty_values(CLI::App& app);
+
 /// --json: machine-readable output.
 void add_json_option(CLI::App& command, bool& json);
 

@@ -10,15 +10,6 @@
 #include "platform/commands/run.hpp"
 
 namespace parallax {
-namespace {
-
-// A script's unset variable must not turn into another run than the one that was meant.
-CLI::Validator not_empty() {
-  return {[](const std::string& name) { return std::string(name.empty() ? "the name is empty" : ""); }, ""};
-}
-
-}  // namespace
-
 void add_run_command(CLI::App& app, CommandContext& context) {
   const auto options = std::make_shared<RunOptions>();
   CLI::App& command = *app.add_subcommand(
@@ -26,18 +17,11 @@ void add_run_command(CLI::App& app, CommandContext& context) {
       "Stereo pairs through the whole machine: disparity maps and timing. Without input: the built-in scene");
   command.option_defaults()->take_last();
 
-  command.add_option("--left", options->left, "Left image")
-      ->check(not_empty())
-      ->type_name("FILE")
-      ->group("Input");
-  command.add_option("--right", options->right, "Right image")
-      ->check(not_empty())
-      ->type_name("FILE")
-      ->group("Input");
+  command.add_option("--left", options->left, "Left image")->type_name("FILE")->group("Input");
+  command.add_option("--right", options->right, "Right image")->type_name("FILE")->group("Input");
   command
       .add_option("--input", options->input,
                   "A sequence: a folder of pairs, or a list file with two paths a line")
-      ->check(not_empty())
       ->type_name("PATH")
       ->group("Input");
   command
@@ -63,7 +47,6 @@ void add_run_command(CLI::App& app, CommandContext& context) {
       .add_option(
           "--ground-truth", options->ground_truth,
           "True disparities of a pair: PNG or TIFF of 8 or 16 bits, float TIFF, PFM or NPY; 0 = unknown")
-      ->check(not_empty())
       ->type_name("FILE")
       ->group("Input");
   command
@@ -72,7 +55,6 @@ void add_run_command(CLI::App& app, CommandContext& context) {
       ->type_name("NUMBER")
       ->group("Input");
   command.add_option("--mask", options->mask, "Pixels to score: 8-bit PNG, 255 = score")
-      ->check(not_empty())
       ->type_name("FILE")
       ->group("Input");
 
@@ -81,18 +63,13 @@ void add_run_command(CLI::App& app, CommandContext& context) {
           "--calibration", options->calibration,
           "Calibration: OpenCV, ROS (two files, left and right), Kalibr, KITTI or Middlebury, told by its "
           "content. Raw images are rectified by it, the point cloud has its scale")
-      ->check(not_empty())
       ->type_name("FILE")
       ->take_all()
       ->group("Rectification");
-  command.add_option("--cameras", options->cameras, kCamerasHelp)
-      ->check(not_empty())
-      ->type_name("L,R")
-      ->group("Rectification");
+  command.add_option("--cameras", options->cameras, kCamerasHelp)->type_name("L,R")->group("Rectification");
   command
       .add_option("--map", options->map,
                   "The images are not rectified: compressed map of `parallax map encode`")
-      ->check(not_empty())
       ->type_name("FILE")
       ->group("Rectification");
   command
@@ -121,7 +98,6 @@ void add_run_command(CLI::App& app, CommandContext& context) {
                 "Do not run the machine once more without its limit to say what that would gain")
       ->group("Timing");
   command.add_option("--out", options->out, "Folder for the results; without it only the summary is printed")
-      ->check(not_empty())
       ->type_name("DIR")
       ->group("Output");
   command
@@ -141,33 +117,28 @@ void add_run_command(CLI::App& app, CommandContext& context) {
                   "Write what happened when: perfetto (trace.pftrace), vcd, csv (trace_*.csv), json; several "
                   "separated by "
                   "commas. Needs --out")
-      ->check(not_empty())
       ->type_name("FORMAT,...")
       ->group("Trace");
   command
       .add_option("--trace-level", options->trace.level,
                   "rows: a span for each stage and row, with what it waited for; tokens: every firing, token "
                   "and burst")
-      ->check(not_empty())
       ->type_name("LEVEL")
       ->group("Trace");
   command
       .add_option(
           "--trace-from", options->trace.from,
           "Begin of what is traced: a frame (8, counted from 1), a row of it (8:120), or a time (12.5ms)")
-      ->check(not_empty())
       ->type_name("WHEN")
       ->group("Trace");
   command
       .add_option("--trace-to", options->trace.to,
                   "Its end, likewise; that frame and row are traced, that time is not")
-      ->check(not_empty())
       ->type_name("WHEN")
       ->group("Trace");
   command
       .add_option("--trace-parts", options->trace.parts,
                   "Stages and memory ports that are traced, a stage with its streams; all if not given")
-      ->check(not_empty())
       ->type_name("NAME,...")
       ->group("Trace");
   add_json_option(command, options->json);

@@ -183,8 +183,8 @@ TEST_F(BadInput, OptionsThatContradict) {
             "--seed: '99999999999999999999' is not a whole number of at most 18 digits");
   EXPECT_NE(error("--frames many"), "");
   EXPECT_NE(error("--left"), "");
-  EXPECT_EQ(error("--left '' --right ''"), "--left: the name is empty");
-  EXPECT_EQ(error("--size 64x48 --out ''"), "--out: the name is empty");
+  EXPECT_EQ(error("--left '' --right ''"), "--left: the value is empty");
+  EXPECT_EQ(error("--size 64x48 --out ''"), "--out: the value is empty");
   EXPECT_NE(error("--frames 99999999999999999999").find("allowed is 1 to 1000000000"), std::string::npos);
 }
 

@@ -154,7 +154,7 @@ TEST_F(Vary, WhatIsWrongWithTheGridIsOneError) {
   for (int i = 2; i <= 400; ++i) many += "," + std::to_string(i);
   EXPECT_EQ(error(run + "--vary memory.latency_cycles=" + many + " --vary matching.latency=" + many),
             "--vary: more than 100000 combinations");
-  EXPECT_EQ(error(run + "--vary clocks.core_hz=1e8 --out ''"), "--out: the name is empty");
+  EXPECT_EQ(error(run + "--vary clocks.core_hz=1e8 --out ''"), "--out: the value is empty");
   const test::Outcome images =
       program_("run --timing-only --left none.png --right none.png --vary clocks.core_hz=1e8,2e8 --out out");
   EXPECT_EQ(images.code, 2);
