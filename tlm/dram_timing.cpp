@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "tlm/error.hpp"
 
 namespace parallax {
@@ -30,10 +32,20 @@ void DramTiming::validate() const {
           fmt::format("dram.bank_groups = {}: must divide dram.banks = {}", bank_groups, banks));
   require(ccd >= burst_clocks(),
           fmt::format("dram.ccd = {}: must be at least {}, half of dram.burst_length", ccd, burst_clocks()));
-  // Or no row could be opened and read between two refreshes.
-  require(refi == 0 || refi > rfc + rp_all + rc,
-          fmt::format("dram.refi = {}: must be 0 or more than dram.rfc + dram.rp_all + dram.rc = {}", refi,
-                      rfc + rp_all + rc));
+  // A refresh closes all rows; between two of them one must be opened and read, or nothing ever is. What may
+  // come before the row opens, from when the refresh is due: its rows stay open, are closed, it takes its
+  // time, and opened may be only what has not been just before. Each bank may take the bus for a command
+  // meanwhile.
+  const std::int64_t open = std::max({ras, rtp, cwl + burst_clocks() + wr});
+  const std::int64_t closed = std::max({rc, open + std::max(rp, rp_all)});
+  const std::int64_t least = std::max({closed + rfc, rrd, rrd_group, faw}) + rcd + banks;
+  require(
+      refi == 0 || refi > least,
+      fmt::format(
+          "dram.refi = {}: must be 0 or more than {}, the clocks in which a row is closed, refreshed, opened "
+          "and read "
+          "(dram.ras, dram.rp, dram.rfc, dram.rcd and others), or no row is ever read between two refreshes",
+          refi, least));
 }
 
 }  // namespace parallax

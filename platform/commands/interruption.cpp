@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "platform/commands/interruption.hpp"
 
+#include <unistd.h>
+
 #include <cstddef>
 
 #include "platform/commands/command_context.hpp"
@@ -14,7 +16,28 @@ constexpr std::array<int, 2> kSignals{SIGINT, SIGTERM};
 // A signal handler reaches nothing but a variable of static storage.
 volatile std::sig_atomic_t noted = 0;
 
-void note(int signal) { noted = signal; }
+// Between two looks at what was noted little time passes, but one of a thousand places may be slow, or wait
+// for a disk.
+constexpr unsigned kPatience = 10;  // s
+
+void note(int signal) {
+  noted = signal;
+  ::alarm(kPatience);
+}
+
+void give_up(int) {
+  constexpr char kLine[] = "parallax: interrupted, and ended where it was\n";
+  [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, kLine, sizeof kLine - 1);
+  ::_exit(128 + static_cast<int>(noted));
+}
+
+void handle(int signal, void (*handler)(int)) {
+  struct sigaction action {};
+  action.sa_handler = handler;
+  action.sa_flags = SA_RESTART | static_cast<int>(SA_RESETHAND);
+  ::sigemptyset(&action.sa_mask);
+  ::sigaction(signal, &action, nullptr);
+}
 
 }  // namespace
 
@@ -23,15 +46,14 @@ Interruption::Interruption() {
   for (std::size_t i = 0; i < kSignals.size(); ++i) {
     ::sigaction(kSignals[i], nullptr, &before_[i]);
     if (before_[i].sa_handler == SIG_IGN) continue;
-    struct sigaction action {};
-    action.sa_handler = note;
-    action.sa_flags = SA_RESTART | static_cast<int>(SA_RESETHAND);
-    ::sigemptyset(&action.sa_mask);
-    ::sigaction(kSignals[i], &action, nullptr);
+    handle(kSignals[i], note);
   }
+  handle(SIGALRM, give_up);
 }
 
 Interruption::~Interruption() {
+  ::alarm(0);
+  std::signal(SIGALRM, SIG_DFL);
   for (std::size_t i = 0; i < kSignals.size(); ++i) ::sigaction(kSignals[i], &before_[i], nullptr);
 }
 

@@ -10,8 +10,9 @@ namespace parallax {
 struct CommandContext;
 
 /// While it lives, SIGINT (Ctrl-C) and SIGTERM are noted instead of ending the program, so that a run can
-/// stop in an orderly way. Each is noted once: the second one ends the program at once. A signal that was
-/// ignored before (nohup) stays ignored. One at a time.
+/// stop in an orderly way. Each is noted once: the second one ends the program at once, and so does the first
+/// one after 10 s if the program has not stopped until then. A signal that was ignored before (nohup) stays
+/// ignored. One at a time.
 class Interruption {
  public:
   Interruption();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <set>
 #include <string>
 #include <vector>
@@ -17,6 +18,10 @@ class Notes {
 
   void operator()(const std::string& line);
   void begin();
+  /// The same for who knows no notes; this object outlives it.
+  std::function<void(const std::string&)> sink() {
+    return [this](const std::string& line) { (*this)(line); };
+  }
 
  private:
   CommandContext& context_;

@@ -23,6 +23,7 @@
 #include "platform/evaluation/verdict.hpp"
 #include "platform/input/run_input.hpp"
 #include "platform/machine/machine.hpp"
+#include "platform/machine/simulated_time.hpp"
 #include "platform/machine/steady_state.hpp"
 #include "platform/results/deadlock_report.hpp"
 #include "platform/results/peak_memory.hpp"
@@ -55,7 +56,8 @@ class Run {
     }
     RunFrames writer(images_, folder_.get(), frame_options(), configuration_.machine.matching.range().last());
     Simulation simulation(length_.most, interrupted_);
-    progress_ = std::make_unique<Progress>(context_.err, shows_progress(context_), "frames", length_.most);
+    progress_ = std::make_unique<Progress>(context_.err, shows_progress(context_), "frames", length_.most,
+                                           notes_.sink());
     // Before this process simulates.
     if (options_.verdict || options_.report)
       trials_.emplace(options_.configuration, timing_input(), context_, interruption_);
@@ -64,8 +66,9 @@ class Run {
     if (folder_) profile_ = std::make_unique<RunProfile>(machine, timer);
     if (options_.trace.wanted())
       tracing_ = std::make_unique<Tracing>(trace_choice_, machine, timer, *folder_);
+    const double total = shortest_frame_time(machine) * static_cast<double>(length_.least);
     notes_.begin();
-    simulation.run();
+    simulation.run([&](double seconds) { progress_->reached(seconds / total); });
     progress_.reset();
     for (const std::string& remark : writer.remarks()) notes_(remark);
     if (simulation.stopped()) return interrupted(writer);

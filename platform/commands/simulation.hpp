@@ -13,12 +13,14 @@ namespace parallax {
 /// when a frame fails and those before it are at the host.
 class Simulation {
  public:
-  /// `frames`: of the run. `interrupted` is asked ten times a second and with every frame.
+  /// `frames`: of the run. `interrupted` is asked ten times a second and with every frame, if between two of
+  /// these nothing takes longer.
   Simulation(std::int64_t frames, std::function<bool()> interrupted)
       : frames_(frames), interrupted_(std::move(interrupted)) {}
 
-  /// Throws what a frame's load or take has thrown.
-  void run();
+  /// Throws what a frame's load or take has thrown, and UserError when the machine is so slow that simulated
+  /// time does not hold the run. `reached` hears now and then of the simulated time, s.
+  void run(const std::function<void(double seconds)>& reached);
   /// Whether run() ended before the machine had nothing left to do: it was interrupted.
   bool stopped() const { return stopped_; }
 

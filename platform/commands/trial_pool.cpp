@@ -5,6 +5,7 @@
 
 #include "platform/commands/command_context.hpp"
 #include "platform/commands/interruption.hpp"
+#include "platform/commands/notes.hpp"
 #include "platform/config/preset.hpp"
 #include "platform/results/progress.hpp"
 
@@ -41,7 +42,8 @@ std::vector<EvaluationResult> TrialPool::evaluate(const std::vector<Variant>& va
 std::vector<EvaluationResult> TrialPool::try_out(const std::vector<Relaxation>& relaxations) {
   std::vector<Variant> variants;
   for (const Relaxation& relaxation : relaxations) variants.push_back({relaxation.assignments});
-  Progress progress(context_.err, shows_progress(context_), "limits", variants.size());
+  Notes notes(context_);
+  Progress progress(context_.err, shows_progress(context_), "limits", variants.size(), notes.sink());
   return evaluate(variants, [&progress] { progress.advance(); });
 }
 

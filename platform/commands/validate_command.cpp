@@ -13,6 +13,7 @@
 #include "platform/commands/common_options.hpp"
 #include "platform/commands/exit_codes.hpp"
 #include "platform/commands/interruption.hpp"
+#include "platform/commands/notes.hpp"
 #include "platform/config/preset.hpp"
 #include "platform/results/output_folder.hpp"
 #include "platform/results/progress.hpp"
@@ -55,7 +56,9 @@ int validate(const ValidateOptions& options, CommandContext& context) {
   const std::vector<PublishedRow> rows = read_rows(options);
   const Interruption interruption;
   const auto interrupted = [&interruption] { return interruption.requested(); };
-  auto progress = std::make_unique<Progress>(context.err, shows_progress(context), "rows", rows.size());
+  Notes notes(context);
+  auto progress =
+      std::make_unique<Progress>(context.err, shows_progress(context), "rows", rows.size(), notes.sink());
   const std::vector<ValidatedRow> validated = validate_rows(
       rows, [&] { progress->advance(); }, interrupted);
   progress.reset();

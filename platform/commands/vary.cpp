@@ -127,7 +127,8 @@ class Grid {
       folder_->replace(is_result_name);
     }
     // At a terminal the growing table is progress enough.
-    Progress progress(context_.err, options_.json && shows_progress(context_), "points", points_.size());
+    Progress progress(context_.err, options_.json && shows_progress(context_), "points", points_.size(),
+                      notes_.sink());
     if (prints_table()) context_.out << header() << std::flush;
     EvaluationPool pool(
         [this](const Variant& point, const NoticeSink& notice) { return prepare(point, notice); });

@@ -10,6 +10,7 @@
 #include "platform/evaluation/worker_process.hpp"
 #include "platform/input/image_padding.hpp"
 #include "platform/machine/machine.hpp"
+#include "platform/machine/simulated_time.hpp"
 #include "platform/machine/steady_state.hpp"
 #include "platform/results/deadlock_report.hpp"
 #include "platform/results/peak_memory.hpp"
@@ -26,6 +27,8 @@ using State = WorkerProcess::State;
 EvaluationResult simulate(const MachineConfig& config, const EvaluationInput& input) {
   const auto began = std::chrono::steady_clock::now();
   sc_core::sc_report_handler::set_actions(sc_core::SC_INFO, sc_core::SC_DO_NOTHING);
+  // A piece of time in which nothing happens is no news.
+  sc_core::sc_report_handler::set_actions(sc_core::SC_ID_NO_SC_START_ACTIVITY_, sc_core::SC_DO_NOTHING);
   MachineInput machine_input;
   machine_input.width = input.map->width;
   machine_input.height = input.map->height;
@@ -35,7 +38,10 @@ EvaluationResult simulate(const MachineConfig& config, const EvaluationInput& in
   machine_input.least_frames = length.least;
   machine_input.timing_only = true;
   const Machine machine("machine", config, machine_input);
-  sc_core::sc_start();
+  shortest_frame_time(machine);
+  do {
+    simulate_for(sc_core::sc_time(1000, sc_core::SC_SEC));
+  } while (sc_core::sc_get_status() != sc_core::SC_STOPPED && sc_core::sc_pending_activity());
   if (!machine.finished()) return not_measured(Status::kStuck, message(find_deadlock(machine)));
   RunTotals totals;
   totals.command = input.command;

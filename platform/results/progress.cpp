@@ -6,12 +6,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace parallax {
 namespace {
 
 constexpr std::int64_t kBarColumns = 24;
 constexpr std::chrono::milliseconds kRedraw{100};
+// An estimate is told when it is some good, and when it is worth knowing.
+constexpr std::chrono::seconds kEstimate{5};
+constexpr std::chrono::seconds kEstimateWithoutAny{20};
+constexpr std::chrono::duration<double> kWorthANote{180};
 constexpr const char* kWipe = "\r\033[K";  // to the first column, erase to the end of the line
 
 std::string duration_text(double seconds) {
@@ -25,18 +30,39 @@ std::string duration_text(double seconds) {
 
 bool standard_error_is_terminal() { return ::isatty(STDERR_FILENO) == 1; }
 
-Progress::Progress(std::ostream& out, bool shown, std::string what, std::int64_t total)
-    : out_(out), shown_(shown), what_(std::move(what)), total_(total) {}
+Progress::Progress(std::ostream& out, bool shown, std::string what, std::int64_t total, Note note)
+    : out_(out),
+      shown_(shown),
+      what_(std::move(what)),
+      total_(total),
+      note_(shown ? Note{} : std::move(note)) {}
 
 Progress::~Progress() {
   if (shown_) out_ << kWipe << std::flush;
 }
 
 void Progress::advance(std::int64_t count, Clock::time_point now) {
+  if (done_ == 0) first_done_ = now;
   done_ += count;
+  const std::chrono::duration<double> since_first = now - first_done_;
+  if (now - start_ >= kEstimate && done_ > count)  // the first one may have taken another time
+    estimate(since_first.count() / static_cast<double>(done_ - 1) * static_cast<double>(total_ - done_));
   if (!shown_ || (now - drawn_ < kRedraw && done_ < total_)) return;
   drawn_ = now;
   out_ << kWipe << line(what_, done_, total_, now - start_) << std::flush;
+}
+
+void Progress::reached(double share, Clock::time_point now) {
+  const std::chrono::duration<double> elapsed = now - start_;
+  if (done_ == 0 && elapsed >= kEstimateWithoutAny && share > 0) estimate(elapsed.count() * (1 / share - 1));
+}
+
+void Progress::estimate(double left_seconds) {
+  if (!note_ || left_seconds < kWorthANote.count()) return;
+  const Note note = std::exchange(note_, {});
+  note(fmt::format(
+      "about {:.0f} minutes to go, {} of {} {} are done; Ctrl-C ends it and keeps what is complete",
+      left_seconds / 60, done_, total_, what_));
 }
 
 std::string Progress::line(const std::string& what, std::int64_t done, std::int64_t total,

@@ -189,8 +189,11 @@ TEST_F(MemoryCommand, ADeviceOfOnesOwn) {
             "dram.bank_groups = 3: must divide dram.banks = 8");
   EXPECT_EQ(complaint([](DramTiming& t) { t.ccd = 3; }),
             "dram.ccd = 3: must be at least 4, half of dram.burst_length");
-  EXPECT_EQ(complaint([](DramTiming& t) { t.refi = 173; }),
-            "dram.refi = 173: must be 0 or more than dram.rfc + dram.rp_all + dram.rc = 173");
+  EXPECT_EQ(
+      complaint([](DramTiming& t) { t.refi = 173; }),
+      "dram.refi = 173: must be 0 or more than 181, the clocks in which a row is closed, refreshed, opened "
+      "and read "
+      "(dram.ras, dram.rp, dram.rfc, dram.rcd and others), or no row is ever read between two refreshes");
   EXPECT_EQ(complaint([](DramTiming&) {}), "(no error)");
 }
 
