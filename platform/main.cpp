@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
 #include <cstdlib>
 #include <iostream>
 #include <systemc>
@@ -16,6 +20,17 @@ void handle_report(const sc_core::sc_report& report, const sc_core::sc_actions& 
   if ((actions & (sc_core::SC_THROW | sc_core::SC_ABORT)) != 0) throw report;
 }
 
+// Whoever starts the program may have closed these: the next file that is opened would be one of them, and
+// take what is meant for a terminal.
+void open_standard_descriptors() {
+  for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (::fcntl(descriptor, F_GETFD) >= 0 || errno != EBADF) continue;
+    // The lowest number that is free, which is this one; the wrong way round, so that who uses it is told as
+    // if it were closed.
+    ::open("/dev/null", descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+  }
+}
+
 }  // namespace
 
 int sc_main(int argc, char** argv) {
@@ -26,6 +41,7 @@ int sc_main(int argc, char** argv) {
 }
 
 int main(int argc, char** argv) {
+  open_standard_descriptors();
   // Standard error belongs to our messages. SystemC's own main() would print its notice there first; only the
   // environment can switch it off, and this is the last place before it is printed.
   ::setenv("SYSTEMC_DISABLE_COPYRIGHT_MESSAGE", "1", 0);
