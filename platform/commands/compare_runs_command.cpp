@@ -1,16 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "platform/commands/compare_runs_command.hpp"
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <memory>
 #include <ostream>
 #include <string>
+#include <vector>
 
 #include "platform/commands/command_context.hpp"
 #include "platform/commands/common_options.hpp"
 #include "platform/report/comparison_page.hpp"
 #include "platform/report/run_comparison.hpp"
+#include "platform/results/file_identity.hpp"
 #include "platform/results/output_file.hpp"
+#include "tlm/error.hpp"
 #include "traces/json_text.hpp"
 
 namespace parallax {
@@ -23,6 +29,43 @@ struct CompareOptions {
   bool json = false;
   std::string html;
 };
+
+std::vector<NamedInput> inputs_of(const CompareOptions& options) {
+  std::vector<NamedInput> inputs;
+  for (const std::filesystem::path run : {options.a, options.b}) {
+    for (const auto& file : {run, run / "timing.json", run / "profile.json", run / "relaxations.json"})
+      inputs.push_back({file.string(), file});
+  }
+  return inputs;
+}
+
+// Where a number should be there may be a text. Which file is damaged shows when each is compared with
+// itself.
+template <class Make>
+auto of_whole(const RunReport& a, const RunReport& b, const Make& make) -> decltype(make(a, b)) {
+  const auto attempt = [&make](const RunReport& first, const RunReport& second) {
+    try {
+      return make(first, second);
+    } catch (const MetricError& damage) {
+      throw UserError(
+          fmt::format("{}: damaged, {}; run parallax again", first.path, excerpt(damage.what(), 200)));
+    }
+  };
+  attempt(a, a);
+  attempt(b, b);
+  return attempt(a, b);
+}
+
+RunComparison compared(const RunReport& a, const RunReport& b) {
+  return of_whole(a, b,
+                  [](const RunReport& first, const RunReport& second) { return compare(first, second); });
+}
+
+std::string compared_page(const RunComparison& comparison, const RunReport& a, const RunReport& b) {
+  return of_whole(a, b, [&](const RunReport& first, const RunReport& second) {
+    return comparison_page(comparison, first, second);
+  });
+}
 
 }  // namespace
 
@@ -38,9 +81,10 @@ void add_compare_runs_command(CLI::App& app, CommandContext& context) {
       ->type_name("FILE");
   command.callback([options, &context] {
     context.action = [options, &context] {
+      refuse_to_replace(inputs_of(*options), "--html " + options->html, options->html);
       const RunReport a = read_run_report(options->a), b = read_run_report(options->b);
-      const RunComparison comparison = compare(a, b);
-      if (!options->html.empty()) write_file(options->html, comparison_page(comparison, a, b));
+      const RunComparison comparison = compared(a, b);
+      if (!options->html.empty()) write_file(options->html, compared_page(comparison, a, b));
       if (options->json) {
         context.out << json_text(to_json(comparison), 2) << '\n';
       } else if (context.verbosity != Verbosity::kQuiet) {

@@ -20,6 +20,7 @@
 #include "platform/input/map_storage.hpp"
 #include "platform/input/raw_map_file.hpp"
 #include "platform/input/read_calibration.hpp"
+#include "platform/results/file_identity.hpp"
 #include "tlm/error.hpp"
 #include "traces/json_text.hpp"
 
@@ -49,12 +50,19 @@ auto in_file(const std::string& path, const Action& action) {
   }
 }
 
+std::vector<NamedInput> inputs_of(const EncodeOptions& options) {
+  std::vector<NamedInput> inputs;
+  for (const std::string& path : options.calibration) inputs.push_back({"--calibration " + path, path});
+  for (const std::string& path : options.maps) inputs.push_back({"--maps " + path, path});
+  return inputs;
+}
+
 ImageSize parse_size(const std::string& option, const std::string& text) {
   ImageSize size;
   char rest = 0;
-  if (std::sscanf(text.c_str(), "%dx%d%c", &size.width, &size.height, &rest) != 2 || size.width < 1 ||
+  if (std::sscanf(text.c_str(), "%5dx%5d%c", &size.width, &size.height, &rest) != 2 || size.width < 1 ||
       size.height < 1 || size.width > 65535 || size.height > 65535) {
-    throw UserError(fmt::format("{}: \"{}\" is not a size such as 640x480", option, text));
+    throw UserError(fmt::format("{}: \"{}\" is not a size such as 640x480", option, excerpt(text)));
   }
   return size;
 }
@@ -129,6 +137,7 @@ void add_encode(CLI::App& command, CommandContext& context) {
   encode_command->add_option("-o,--out", options->output, "Map file to write")->required();
   encode_command->callback([options, &context] {
     context.action = [options, &context] {
+      refuse_to_replace(inputs_of(*options), "--out " + options->output, options->output);
       return report(context, [&](std::ostream& out) {
         const EncodedMap map = encode(map_of(*options, out));
         write_map_file(options->output, map);
@@ -153,6 +162,9 @@ void add_decode(CLI::App& command, CommandContext& context) {
       ->required();
   decode_command->callback([options, &context] {
     context.action = [options, &context] {
+      const std::vector<NamedInput> inputs{{options->input, options->input}};
+      for (const std::string& name : raw_map_names(options->output))
+        refuse_to_replace(inputs, "--out " + options->output, name);
       return report(context, [&](std::ostream& out) {
         const RectificationMap map = in_file(options->input, decode);
         out << fmt::format("{}\n", fmt::join(write_raw_maps(options->output, raw_maps(map)), "\n"));

@@ -3,16 +3,17 @@
 
 #include <fmt/format.h>
 
+#include <optional>
+
 #include "platform/commands/command_context.hpp"
 #include "platform/commands/exit_codes.hpp"
 #include "platform/commands/interruption.hpp"
 #include "platform/commands/notes.hpp"
+#include "platform/commands/run_folder.hpp"
 #include "platform/commands/trial_pool.hpp"
 #include "platform/config/preset.hpp"
 #include "platform/evaluation/evaluation_inputs.hpp"
 #include "platform/evaluation/verdict.hpp"
-#include "platform/results/output_folder.hpp"
-#include "platform/results/result_names.hpp"
 #include "traces/json_text.hpp"
 
 namespace parallax {
@@ -23,13 +24,12 @@ int not_measured(const EvaluationResult& base, CommandContext& context) {
   return base.status == EvaluationResult::Status::kInvalid ? kBadInput : kNotAsExpected;
 }
 
-void report(const Verdict& verdict, const RunOptions& options, CommandContext& context) {
+void report(const Verdict& verdict, const RunOptions& options, OutputFolder* folder,
+            CommandContext& context) {
   const nlohmann::ordered_json tree = to_json(verdict.limits);
-  if (!options.out.empty()) {
-    OutputFolder folder(options.out);
-    folder.replace(is_result_name);
-    folder.write("relaxations.json", json_text(tree, 2) + "\n");
-    folder.publish();
+  if (folder != nullptr) {
+    folder->write("relaxations.json", json_text(tree, 2) + "\n");
+    folder->publish();
   }
   if (options.json) {
     context.out << json_text(tree, 2) << '\n';
@@ -51,6 +51,12 @@ int relax(const RunOptions& options, CommandContext& context) {
   EvaluationInput input =
       inputs.prepare(configuration.machine, [&](const std::string& line) { notes(line); });
   input.command = context.command_line.text();
+  std::optional<OutputFolder> folder;
+  if (!options.out.empty()) {
+    ResultPlan plan;
+    plan.relaxations = true;
+    folder.emplace(options.out, folder_plan(options, plan));
+  }
   TrialPool pool(options.configuration, input, context, interruption);
   const std::vector<EvaluationResult> base = pool.evaluate({{}});
   if (base.empty()) return stopped(0);
@@ -61,7 +67,7 @@ int relax(const RunOptions& options, CommandContext& context) {
       find_verdict(configuration.machine, base[0], Thoroughness::kAll,
                    [&pool](const std::vector<Relaxation>& relaxations) { return pool.try_out(relaxations); });
   if (interruption.requested()) return stopped(verdict.limits.alone.size());
-  report(verdict, options, context);
+  report(verdict, options, folder ? &*folder : nullptr, context);
   return 0;
 }
 

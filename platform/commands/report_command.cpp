@@ -9,6 +9,7 @@
 #include <ostream>
 #include <string>
 #include <system_error>
+#include <utility>
 
 #include "platform/commands/command_context.hpp"
 #include "platform/report/report_file.hpp"
@@ -28,7 +29,9 @@ void add_report_command(CLI::App& app, CommandContext& context) {
       if (std::filesystem::is_regular_file(*folder, error))
         throw UserError(fmt::format("{} is a file, a report is made of a run's folder", *folder));
       const std::string page = report_of(*folder);
-      OutputFolder out(*folder);
+      FolderPlan plan;
+      plan.writes = [](const std::string& name) { return name == "report.html"; };
+      OutputFolder out(*folder, std::move(plan));
       out.write("report.html", page);
       out.publish();
       if (context.verbosity != Verbosity::kQuiet)

@@ -13,6 +13,7 @@
 #include "platform/commands/interruption.hpp"
 #include "platform/commands/notes.hpp"
 #include "platform/commands/relax.hpp"
+#include "platform/commands/run_folder.hpp"
 #include "platform/commands/run_frames.hpp"
 #include "platform/commands/run_images.hpp"
 #include "platform/commands/run_results.hpp"
@@ -28,7 +29,6 @@
 #include "platform/results/deadlock_report.hpp"
 #include "platform/results/peak_memory.hpp"
 #include "platform/results/progress.hpp"
-#include "platform/results/result_names.hpp"
 #include "platform/results/run_metrics.hpp"
 #include "platform/tracing/run_profile.hpp"
 #include "platform/tracing/tracing.hpp"
@@ -51,8 +51,7 @@ class Run {
 
   int execute() {
     if (!options_.out.empty()) {
-      folder_ = std::make_unique<OutputFolder>(options_.out);
-      folder_->replace(is_result_name);
+      folder_ = std::make_unique<OutputFolder>(options_.out, folder_plan(options_, plan()));
     }
     RunFrames writer(images_, folder_.get(), frame_options(), configuration_.machine.matching.range().last());
     Simulation simulation(length_.most, interrupted_);
@@ -78,6 +77,18 @@ class Run {
   }
 
  private:
+  ResultPlan plan() const {
+    ResultPlan plan;
+    plan.frames = !options_.timing_only;
+    plan.sequence = images_.frames() > 1;
+    plan.truth = images_.is_scene() || !options_.ground_truth.empty();
+    plan.points = options_.point_cloud && images_.q().has_value();
+    plan.timing = true;
+    plan.report = plan.relaxations = options_.report;
+    plan.traces = trace_choice_.formats;
+    return plan;
+  }
+
   FrameResultOptions frame_options() const {
     const DisparityRange range = configuration_.machine.matching.range();
     return {disparity_scale(range.offset, range.last()), options_.point_cloud ? images_.q() : std::nullopt};

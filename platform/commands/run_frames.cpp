@@ -68,7 +68,7 @@ void RunFrames::write(const FrameResult& result, FrameImages frame) {
   if (single) return;
   folder_->publish_written();
   if (!strip_)
-    strip_ = std::make_unique<StripGif>(folder_->path() / "strip.gif", images_.size(), options_.colors);
+    strip_ = std::make_unique<StripGif>(folder_->open("strip.gif"), images_.size(), options_.colors);
   strip_->add(frame.left, {frame.disparities, images_.size().width, images_.size().height},
               sc_core::sc_time_stamp().to_seconds() * 1e3);
 }

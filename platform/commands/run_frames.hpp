@@ -30,12 +30,10 @@ class RunFrames {
   const RunTotals& totals() const { return totals_; }
   /// What the results say of the input, a line each: sides that look exchanged, a truth of another scale.
   const std::vector<std::string>& remarks() const { return remarks_; }
-  /// A sequence's moving picture appears when `publish` has published what else there is.
-  template <class Publish>
-  void publish_strip_with(const Publish& publish) {
+  /// No frame follows: completes a sequence's moving picture, which the folder publishes with what else there
+  /// is.
+  void complete() {
     if (strip_) strip_->complete();
-    publish();
-    if (strip_) strip_->publish();
   }
 
  private:

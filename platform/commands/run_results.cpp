@@ -18,7 +18,8 @@ nlohmann::ordered_json RunResults::write(const MetricGroup& metrics, const RunPr
   if (folder_ == nullptr) return tree;
   if (profile != nullptr) folder_->write("profile.json", json_text(profile->to_json()) + "\n");
   folder_->write("timing.json", json_text(tree, 2) + "\n");
-  frames.publish_strip_with([this] { folder_->publish(); });
+  frames.complete();
+  folder_->publish();
   if (options_.report) {
     folder_->write("report.html", report_of(folder_->path()));
     folder_->publish();

@@ -5,10 +5,12 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "platform/commands/command_context.hpp"
 #include "platform/commands/common_options.hpp"
@@ -29,14 +31,33 @@ struct SceneOptions {
   bool rectified = false;
 };
 
+constexpr std::array<const char*, 4> kImages{"disp_gt", "mask_nocc", "left", "right"};
+
 void read_size(const std::string& text, SceneConfig& config) {
   int width = 0, height = 0, used = 0;
   if (std::sscanf(text.c_str(), "%5dx%5d%n", &width, &height, &used) != 2 ||
       static_cast<std::size_t>(used) != text.size()) {
-    throw UserError(fmt::format("--size is '{}', expected width x height such as 640x480", text));
+    throw UserError(fmt::format("--size is '{}', expected width x height such as 640x480", excerpt(text)));
   }
   config.width = width;
   config.height = height;
+}
+
+/// Whether a scene of `frames` frames, counted with `digits` digits, has a file of this name.
+bool is_of_scene(const std::string& name, int frames, int digits) {
+  if (name == "calib.yml") return true;
+  for (const char* const image : kImages) {
+    const std::string prefix = image;
+    if (name.compare(0, prefix.size(), prefix) != 0) continue;
+    const std::string rest = name.substr(prefix.size());
+    if (frames == 1 && rest == ".png") return true;
+    int frame = 0, used = 0;
+    if (frames > 1 && std::sscanf(rest.c_str(), "_%9d.png%n", &frame, &used) == 1 && frame >= 0 &&
+        frame < frames && rest == fmt::format("_{:0{}}.png", frame, digits)) {
+      return true;
+    }
+  }
+  return false;
 }
 
 int write_scene(SceneOptions options) {
@@ -46,9 +67,11 @@ int write_scene(SceneOptions options) {
     throw UserError(fmt::format("--frames is {}, allowed is 1 and more", options.frames));
   }
   const Scene scene(options.config);
-  OutputFolder folder(options.out);
-  folder.write("calib.yml", to_yaml(scene.calibration()));
   const int digits = std::max<int>(2, static_cast<int>(std::to_string(options.frames - 1).size()));
+  FolderPlan plan;
+  plan.writes = [&](const std::string& name) { return is_of_scene(name, options.frames, digits); };
+  OutputFolder folder(options.out, std::move(plan));
+  folder.write("calib.yml", to_yaml(scene.calibration()));
   for (int frame = 0; frame < options.frames; ++frame) {
     const StereoImages images = scene.render(frame);
     const SceneTruth truth = scene.truth(frame);

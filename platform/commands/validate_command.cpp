@@ -6,7 +6,9 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "platform/commands/command_context.hpp"
@@ -54,6 +56,12 @@ std::vector<PublishedRow> read_rows(const ValidateOptions& options) {
 
 int validate(const ValidateOptions& options, CommandContext& context) {
   const std::vector<PublishedRow> rows = read_rows(options);
+  std::optional<OutputFolder> folder;
+  if (!options.out.empty()) {
+    FolderPlan plan;
+    plan.writes = [](const std::string& name) { return name == "validation.json"; };
+    folder.emplace(options.out, std::move(plan));
+  }
   const Interruption interruption;
   const auto interrupted = [&interruption] { return interruption.requested(); };
   Notes notes(context);
@@ -74,10 +82,9 @@ int validate(const ValidateOptions& options, CommandContext& context) {
     return interrupted_after(fmt::format("{} of {} rows", validated.size(), rows.size()), context,
                              interruption);
   }
-  if (!options.out.empty()) {
-    OutputFolder folder(options.out);
-    folder.write("validation.json", json_text(tree, 2) + "\n");
-    folder.publish();
+  if (folder) {
+    folder->write("validation.json", json_text(tree, 2) + "\n");
+    folder->publish();
   }
   if (options.json) {
     context.out << json_text(tree, 2) << '\n';

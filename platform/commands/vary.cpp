@@ -11,6 +11,7 @@
 #include "platform/commands/exit_codes.hpp"
 #include "platform/commands/interruption.hpp"
 #include "platform/commands/notes.hpp"
+#include "platform/commands/run_folder.hpp"
 #include "platform/config/nearest_name.hpp"
 #include "platform/config/preset.hpp"
 #include "platform/config/preset_file.hpp"
@@ -18,7 +19,6 @@
 #include "platform/evaluation/evaluation_pool.hpp"
 #include "platform/results/output_folder.hpp"
 #include "platform/results/progress.hpp"
-#include "platform/results/result_names.hpp"
 #include "tlm/error.hpp"
 #include "traces/json_text.hpp"
 
@@ -62,14 +62,14 @@ std::vector<Axis> read_axes(const RunOptions& options, const Configuration& conf
     const bool blank =
         std::any_of(axis.values.begin(), axis.values.end(), [](const std::string& v) { return v.empty(); });
     if (axis.key.empty() || blank) {
-      throw UserError(fmt::format("--vary {}: must have the form key=value,value,...", argument));
+      throw UserError(fmt::format("--vary {}: must have the form key=value,value,...", excerpt(argument)));
     }
     if (std::find(keys.begin(), keys.end(), axis.key) == keys.end()) {
-      throw UserError(fmt::format("--vary {}: unknown key {}; the nearest is {}", argument, axis.key,
-                                  nearest_name(axis.key, keys)));
+      throw UserError(fmt::format("--vary {}: unknown key {}; the nearest is {}", excerpt(argument),
+                                  excerpt(axis.key), nearest_name(axis.key, keys)));
     }
     if (std::any_of(axes.begin(), axes.end(), [&](const Axis& a) { return a.key == axis.key; })) {
-      throw UserError(fmt::format("--vary {}: {} is varied twice", argument, axis.key));
+      throw UserError(fmt::format("--vary {}: {} is varied twice", excerpt(argument), axis.key));
     }
     if (axis.key == "matching.iterations" && options.configuration.disparity_range) {
       throw UserError("--vary matching.iterations and --disparities exclude each other: both set the range");
@@ -123,8 +123,9 @@ class Grid {
   int run() {
     const Interruption interruption;
     if (!options_.out.empty()) {
-      folder_ = std::make_unique<OutputFolder>(options_.out);
-      folder_->replace(is_result_name);
+      ResultPlan plan;
+      plan.sweep = true;
+      folder_ = std::make_unique<OutputFolder>(options_.out, folder_plan(options_, plan));
     }
     // At a terminal the growing table is progress enough.
     Progress progress(context_.err, options_.json && shows_progress(context_), "points", points_.size(),
@@ -138,9 +139,10 @@ class Grid {
           take(index, std::move(result));
           progress.advance();
         });
+    if (options_.json)
+      context_.out << json_text(all_, 2) << '\n';  // of a grid that was interrupted, what there is
     if (taken < points_.size())
       return interrupted_after(fmt::format("{} of {} points", taken, points_.size()), context_, interruption);
-    if (options_.json) context_.out << json_text(all_, 2) << '\n';
     return all_done_ ? 0 : kNotAsExpected;
   }
 

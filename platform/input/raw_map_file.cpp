@@ -6,6 +6,7 @@
 
 #include <array>
 #include <filesystem>
+#include <memory>
 #include <opencv2/core.hpp>
 
 #include "platform/images/image_codecs.hpp"
@@ -64,6 +65,18 @@ void check_sizes(const RawMaps& maps, const std::string& source) {
   }
 }
 
+bool is_file_storage(const std::string& extension) {
+  return extension == ".yml" || extension == ".yaml" || extension == ".xml" || extension == ".json";
+}
+
+// Its user has not named this file, but one that its name is derived from.
+bool may_write(const std::string& path, const std::vector<std::uint8_t>& bytes) {
+  std::error_code ignored;
+  const auto size = std::filesystem::file_size(path, ignored);
+  return !std::filesystem::exists(std::filesystem::symlink_status(path, ignored)) ||
+         (size == bytes.size() && read_file(path) == bytes);
+}
+
 }  // namespace
 
 RawMaps read_raw_maps(const std::vector<std::string>& paths) {
@@ -89,17 +102,10 @@ RawMaps read_raw_maps(const std::vector<std::string>& paths) {
   return maps;
 }
 
-std::vector<std::string> write_raw_maps(const std::string& path, const RawMaps& maps) {
+std::vector<std::string> raw_map_names(const std::string& path) {
   const std::filesystem::path target(path);
   const std::string extension = target.extension().string();
-  if (extension == ".yml" || extension == ".yaml" || extension == ".xml" || extension == ".json") {
-    cv::FileStorage file(extension, cv::FileStorage::WRITE | cv::FileStorage::MEMORY);
-    for (const NamedMap& named : kMaps) {
-      file << named.name << maps.*named.map;
-    }
-    write_file(path, file.releaseAndGetString());
-    return {path};
-  }
+  if (is_file_storage(extension)) return {path};
   if (extension != ".tif" && extension != ".tiff") {
     throw UserError(fmt::format("{}: raw maps are written as .yml, .yaml, .xml, .json, .tif or .tiff", path));
   }
@@ -107,8 +113,34 @@ std::vector<std::string> write_raw_maps(const std::string& path, const RawMaps& 
   for (const NamedMap& named : kMaps) {
     const std::string name = fmt::format("{}_{}{}", target.stem().string(), named.name, extension);
     names.push_back((target.parent_path() / name).string());
-    write_file(names.back(), encode_image(extension, maps.*named.map));
   }
+  return names;
+}
+
+std::vector<std::string> write_raw_maps(const std::string& path, const RawMaps& maps) {
+  const std::vector<std::string> names = raw_map_names(path);
+  const std::string extension = std::filesystem::path(path).extension().string();
+  if (is_file_storage(extension)) {
+    cv::FileStorage file(extension, cv::FileStorage::WRITE | cv::FileStorage::MEMORY);
+    for (const NamedMap& named : kMaps) {
+      file << named.name << maps.*named.map;
+    }
+    write_file(path, file.releaseAndGetString());
+    return names;
+  }
+  std::vector<std::unique_ptr<OutputFile>> files;
+  for (std::size_t i = 0; i < kMaps.size(); ++i) {
+    const std::vector<std::uint8_t> bytes = encode_image(extension, maps.*kMaps[i].map);
+    if (!may_write(names[i], bytes)) {
+      throw UserError(
+          fmt::format("{} exists and holds something else; move it away, or choose another name than {}",
+                      names[i], path));
+    }
+    files.push_back(std::make_unique<OutputFile>(names[i]));
+    files.back()->write(bytes.data(), bytes.size());
+    files.back()->close();
+  }
+  for (const auto& file : files) file->publish();
   return names;
 }
 

@@ -13,8 +13,12 @@ namespace parallax {
 /// matrix.
 RawMaps read_raw_maps(const std::vector<std::string>& paths);
 
-/// Writes what read_raw_maps() reads: one file for .yml, .yaml, .xml or .json, four for .tif or .tiff
-/// (NAME_left_x.tiff ...). Returns the names written. Throws UserError when it cannot.
+/// The files that write_raw_maps() writes: one for .yml, .yaml, .xml or .json, four for .tif or .tiff
+/// (NAME_left_x.tiff ...). Throws UserError for another extension.
+std::vector<std::string> raw_map_names(const std::string& path);
+
+/// Writes what read_raw_maps() reads, and returns the names written; one file replaces an older one, of four
+/// none does. Throws UserError when it cannot.
 std::vector<std::string> write_raw_maps(const std::string& path, const RawMaps& maps);
 
 }  // namespace parallax

@@ -5,8 +5,11 @@
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
+#include <string>
 #include <string_view>
 #include <vector>
+
+#include "platform/results/file_content.hpp"
 
 namespace parallax {
 
@@ -30,16 +33,31 @@ class OutputFile {
   /// Closes the file and gives it its name, in the place of an older file of that name.
   void publish();
 
+  const std::filesystem::path& target() const { return target_; }
+  /// Of what was written until now.
+  const FileContent& content() const { return content_; }
+
  private:
+  void open_temporary();
+  void discard();
   [[noreturn]] void fail(int error) const;
 
   std::filesystem::path target_;
   std::filesystem::path temporary_;  ///< empty when the target is written directly
   std::FILE* file_ = nullptr;
+  int lock_ = -1;  ///< a descriptor that keeps the temporary file locked: who wrote it lives
+  FileContent content_;
   bool published_ = false;
 };
 
-/// A whole file at once: the old one or the new one, never a part.
+/// The name of the file that `name` is a temporary file of; empty when it is none.
+std::string target_of_temporary(const std::string& name);
+/// Removes a temporary file whose writer does not live any more, on whichever machine that was; others stay.
+/// Says whether it did.
+bool remove_if_abandoned(const std::filesystem::path& temporary);
+
+/// A whole file at once: the old one or the new one, never a part. Temporary files that an earlier attempt at
+/// it left are removed.
 void write_file(const std::filesystem::path& target, std::string_view content);
 void write_file(const std::filesystem::path& target, const std::vector<std::uint8_t>& content);
 

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
-#include <utility>
 
 #include "platform/results/result_images.hpp"
 
@@ -68,12 +67,12 @@ cv::Mat to_indices(const cv::Mat& picture, const std::vector<cv::Vec3b>& palette
 
 }  // namespace
 
-StripGif::StripGif(std::filesystem::path file, const cv::Size& frame, const ColorScale& scale)
+StripGif::StripGif(OutputFile& file, const cv::Size& frame, const ColorScale& scale)
     : panel_(panel_size(frame)),
       scale_(thinned(scale)),
       palette_(palette_of(scale_)),
       legend_(to_indices(draw_legend(disparity_legend(scale_), 2 * panel_.width), palette_)),
-      file_(std::move(file)),
+      file_(file),
       encoder_({2 * panel_.width, panel_.height + legend_.rows}, palette_) {}
 
 void StripGif::add(const cv::Mat& left, const DisparityView& disparities, double milliseconds) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <filesystem>
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
@@ -19,8 +18,8 @@ namespace parallax {
 /// frame.
 class StripGif {
  public:
-  /// The file appears at publish(). `frame`: size of a frame, px. Throws UserError when it cannot be made.
-  StripGif(std::filesystem::path file, const cv::Size& frame, const ColorScale& scale);
+  /// `file` outlives this object. `frame`: size of a frame, px.
+  StripGif(OutputFile& file, const cv::Size& frame, const ColorScale& scale);
 
   /// `left`: CV_8UC1. `milliseconds`: when the frame arrived, in the sequence's time; not before the one
   /// before. Throws UserError when the disk is full.
@@ -29,9 +28,6 @@ class StripGif {
   /// No frame follows: brings all data to the file system. Throws UserError when the disk is full.
   void complete();
 
-  /// Gives the completed file its name.
-  void publish() { file_.publish(); }
-
  private:
   void write(double milliseconds);
 
@@ -39,7 +35,7 @@ class StripGif {
   ColorScale scale_;
   std::vector<cv::Vec3b> palette_;
   cv::Mat legend_;  ///< palette indices
-  OutputFile file_;
+  OutputFile& file_;
   GifEncoder encoder_;
   cv::Mat waiting_;  ///< palette indices of the last frame: how long it is shown the next one says
   double since_ = 0;

@@ -17,6 +17,7 @@
 #include <string>
 #include <vector>
 
+#include "platform/results/file_index.hpp"
 #include "tests/paths.hpp"
 #include "tests/platform/temporary_folder.hpp"
 
@@ -66,12 +67,13 @@ class Program {
             out_.read("err")};
   }
 
-  /// Everything below the working directory, sorted, folders with a slash at the end.
+  /// Everything below the working directory but lists of results, sorted, folders with a slash at the end.
   std::vector<std::string> files(const std::string& below = "") const {
     std::vector<std::string> names;
     const std::filesystem::path root = folder_.path() / below;
     if (!std::filesystem::exists(root)) return names;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(root)) {
+      if (entry.path().filename() == FileIndex::kName) continue;
       names.push_back(std::filesystem::relative(entry.path(), root).string() +
                       (entry.is_directory() ? "/" : ""));
     }

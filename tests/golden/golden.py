@@ -190,7 +190,7 @@ def record(program, case):
                 lines += done.stdout.splitlines()
             lines.append(f"exit code {done.returncode}")
         for path in sorted((pathlib.Path(folder) / "out").rglob("*")):
-            if path.is_file() and path.suffix not in SKIPPED_FILES:
+            if path.is_file() and path.suffix not in SKIPPED_FILES and not path.name.startswith("."):
                 lines += file_lines(str(path.relative_to(pathlib.Path(folder) / "out")), path.read_bytes())
     return lines
 

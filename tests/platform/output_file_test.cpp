@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <csignal>
@@ -57,6 +58,23 @@ TEST(OutputFile, UnlessPublishedNothingAppears) {
     EXPECT_FALSE(std::filesystem::exists(folder / "a.bin"));
   }
   EXPECT_EQ(entries(folder.path()), 0);
+}
+
+TEST(OutputFile, WhatAnEarlierAttemptLeftIsRemovedAndANameThatIsTakenIsNoFault) {
+  const TemporaryFolder folder;
+  folder.write(".a.bin.99.part", "left");
+  folder.write(".b.bin.99.part", "of another file");
+  folder.write(".a.bin." + std::to_string(::getpid()) + ".part", "left by a process of the same number");
+  write_file(folder / "a.bin", kBytes);
+  EXPECT_EQ(entries(folder.path()), 2);
+  OutputFile first(folder / "a.bin"), second(folder / "a.bin");
+  first.write("first");
+  second.write("second");
+  first.publish();
+  EXPECT_EQ(folder.read("a.bin"), "first");
+  second.publish();
+  EXPECT_EQ(folder.read("a.bin"), "second");
+  EXPECT_EQ(entries(folder.path()), 2);
 }
 
 TEST(OutputFile, NothingIsLeftWhenTheFileDoesNotFit) {

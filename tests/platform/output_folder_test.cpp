@@ -4,7 +4,10 @@
 #include <gtest/gtest.h>
 #include <sys/mount.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
+
+#include <csignal>
 
 #include "platform/results/result_names.hpp"
 #include "tests/platform/error_of.hpp"
@@ -32,7 +35,7 @@ TEST(OutputFolder, FilesAppearTogetherWhenPublished) {
   EXPECT_EQ(temporary.read("a.json"), "text");
   EXPECT_EQ(temporary.read("deep/er/b.bin"), std::string("\0\1", 2));
   EXPECT_EQ(temporary.read("c.png"), "x");
-  EXPECT_EQ(entries(temporary.path()), 5U) << "three files, two folders, no temporary file";
+  EXPECT_EQ(entries(temporary.path()), 6U) << "three files, two folders, the index, no temporary file";
 }
 
 TEST(OutputFolder, OpenedFilesGoOnWhileWrittenOnesArePublished) {
@@ -49,9 +52,25 @@ TEST(OutputFolder, OpenedFilesGoOnWhileWrittenOnesArePublished) {
   EXPECT_EQ(temporary.read("trace.csv"), "first,second");
 }
 
+// What a command wrote into a folder at another time.
+void write_results(const TemporaryFolder& temporary, const std::vector<const char*>& names) {
+  OutputFolder folder(temporary.path());
+  for (const char* name : names) folder.write(name, "old");
+  folder.publish();
+}
+
+FolderPlan plan_of(const std::vector<std::string>& names) {
+  FolderPlan plan;
+  plan.writes = [names](const std::string& name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  plan.replaces = is_result_name;
+  return plan;
+}
+
 TEST(OutputFolder, ReplacesOlderResultsOnlyWhenPublished) {
   TemporaryFolder temporary;
-  temporary.write("a.json", "old");
+  write_results(temporary, {"a.json"});
   {
     OutputFolder folder(temporary.path());
     folder.write("a.json", "never finished");
@@ -61,29 +80,21 @@ TEST(OutputFolder, ReplacesOlderResultsOnlyWhenPublished) {
   folder.write("a.json", "new");
   folder.publish();
   EXPECT_EQ(temporary.read("a.json"), "new");
-  EXPECT_EQ(entries(temporary.path()), 1U);
+  EXPECT_EQ(entries(temporary.path()), 2U);
 }
 
 TEST(OutputFolder, OldResultsGiveWayToThoseOfAnotherRun) {
   TemporaryFolder temporary;
-  for (const char* name : {"timing.json", "disparity.png", "mine.txt", "trace_rows.csv"})
+  for (const char* name : {"deep/frame_0000/disparity.png", "frame_0003/note.txt", "mine.txt"})
     temporary.write(name, "old");
-  for (const char* folder : {"frame_0000", "frame_0002", "frame_0003", "deep/frame_0000", "point_0001"}) {
-    fs::create_directories(temporary / folder);
-  }
-  for (const char* name :
-       {"frame_0000/disparity.png", "frame_0002/points.ply", "frame_0003/disparity.bin",
-        "frame_0003/note.txt", "deep/frame_0000/disparity.png", "point_0001/timing.json"}) {
-    temporary.write(name, "old");
-  }
+  write_results(temporary, {"timing.json", "disparity.png", "trace_rows.csv", "frame_0000/disparity.png",
+                            "frame_0002/points.ply", "frame_0003/disparity.bin", "point_0001/timing.json"});
   {
-    OutputFolder failed(temporary.path());
-    failed.replace(is_result_name);
+    OutputFolder failed(temporary.path(), plan_of({"frame_0000/disparity.png"}));
     failed.write("frame_0000/disparity.png", "never finished");
   }
   EXPECT_EQ(temporary.read("timing.json"), "old");
-  OutputFolder folder(temporary.path());
-  folder.replace(is_result_name);
+  OutputFolder folder(temporary.path(), plan_of({"frame_0000/disparity.png"}));
   folder.write("frame_0000/disparity.png", "new");
   folder.publish();
   EXPECT_EQ(temporary.read("frame_0000/disparity.png"), "new");
@@ -97,6 +108,109 @@ TEST(OutputFolder, OldResultsGiveWayToThoseOfAnotherRun) {
   folder.write("timing.json", "new");
   folder.publish();  // the second time nothing is removed
   EXPECT_EQ(temporary.read("frame_0000/disparity.png"), "new");
+}
+
+TEST(OutputFolder, WhatItDidNotWriteItNeitherRemovesNorReplaces) {
+  TemporaryFolder temporary;
+  write_results(temporary, {"timing.json", "causes.png", "points.ply"});
+  temporary.write("error.png", "mine");
+  temporary.write("points.ply", "odl");  // as long as it was, and another one
+  temporary.write("causes.png", "old and more");
+  fs::remove(temporary / "timing.json");
+  fs::create_symlink("elsewhere", temporary / "timing.json");
+  {
+    OutputFolder folder(temporary.path(), plan_of({"disparity.png"}));
+    folder.write("disparity.png", "new");
+    folder.publish();
+  }
+  EXPECT_EQ(temporary.read("error.png"), "mine");
+  EXPECT_EQ(temporary.read("points.ply"), "odl");
+  EXPECT_EQ(temporary.read("causes.png"), "old and more");
+  EXPECT_TRUE(fs::is_symlink(temporary / "timing.json"));
+  for (const char* name : {"error.png", "points.ply", "causes.png"}) {
+    EXPECT_EQ(error_of([&] { OutputFolder folder(temporary.path(), plan_of({name})); }),
+              temporary / name +
+                  " would be replaced, but is no result as parallax wrote it there (.parallax_files); move "
+                  "it away, "
+                  "or choose another folder");
+  }
+}
+
+TEST(OutputFolder, WhatAppearsMeanwhileIsNotReplaced) {
+  TemporaryFolder temporary;
+  {
+    OutputFolder folder(temporary.path(), plan_of({"timing.json", "profile.json"}));
+    folder.write("profile.json", "new");
+    folder.write("timing.json", "new");
+    temporary.write("timing.json", "mine");
+    EXPECT_NE(error_of([&] { folder.publish(); }).find("timing.json would be replaced"), std::string::npos);
+  }
+  EXPECT_EQ(temporary.read("timing.json"), "mine");
+  EXPECT_EQ(entries(temporary.path()), 1U);
+}
+
+TEST(OutputFolder, RefusesWhatWouldCostAnInput) {
+  TemporaryFolder temporary;
+  write_results(temporary, {"disparity.png", "left_rectified.png"});
+  fs::create_symlink("disparity.png", temporary / "link.png");
+  fs::create_hard_link(temporary / "left_rectified.png", temporary / "other.png");
+  const auto refusal = [&](const std::string& input, const std::string& writes) {
+    FolderPlan plan = plan_of({writes});
+    plan.inputs = {{"--left " + input, temporary / input}};
+    return error_of([&] { OutputFolder folder(temporary.path(), std::move(plan)); });
+  };
+  const auto line = [&](const std::string& input, const std::string& target) {
+    return "--out " + temporary.path().string() + " would replace or remove --left " + input +
+           ", which is read: " + temporary / target + " is the name of a result; choose another folder";
+  };
+  EXPECT_EQ(refusal("disparity.png", "disparity.png"), line("disparity.png", "disparity.png"));
+  EXPECT_EQ(refusal("link.png", "timing.json"), line("link.png", "disparity.png")) << "as an old result";
+  EXPECT_EQ(refusal("other.png", "left_rectified.png"), line("other.png", "left_rectified.png"));
+  EXPECT_EQ(refusal("./../" + temporary.path().filename().string() + "/disparity.png", "disparity.png"),
+            line("./../" + temporary.path().filename().string() + "/disparity.png", "disparity.png"));
+}
+
+TEST(OutputFolder, ADamagedIndexNamesNothing) {
+  TemporaryFolder temporary;
+  write_results(temporary, {"disparity.png"});
+  const std::string mine = temporary.write("mine/note.txt", "old");
+  temporary.write(
+      ".parallax_files",
+      "x\n\n3 zz disparity.png\n99999999999999999999999999 0 disparity.png\n3 0bb75bc4 ../mine/note.txt\n");
+  OutputFolder folder(temporary.path(), plan_of({"timing.json"}));
+  folder.write("timing.json", "new");
+  folder.publish();
+  EXPECT_EQ(temporary.read("disparity.png"), "old");
+  EXPECT_EQ(temporary.read("mine/note.txt"), "old");
+  fs::remove(temporary / ".parallax_files");
+  fs::create_directory(temporary / ".parallax_files");
+  EXPECT_EQ(
+      error_of([&] { OutputFolder again(temporary.path()); }),
+      temporary / ".parallax_files" + " is not a file, but results are listed there; choose another folder");
+}
+
+TEST(OutputFolder, RemovesWhatAProcessThatWasKilledLeft) {
+  TemporaryFolder temporary;
+  const pid_t child = ::fork();
+  if (child == 0) {
+    OutputFolder folder(temporary.path(), plan_of({}));
+    folder.write("frame_0000/disparity.png", "half");
+    folder.open("trace.json").write("half");
+    ::kill(::getpid(), SIGKILL);
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  EXPECT_EQ(entries(temporary.path()), 3U) << "two files and a folder";
+  temporary.write(".movie.123.part", "mine");
+  OutputFolder running(temporary.path(), plan_of({}));
+  running.write("timing.json", "of one that lives");
+  {
+    OutputFolder folder(temporary.path(), plan_of({}));
+    EXPECT_EQ(entries(temporary.path()), 2U);
+    EXPECT_EQ(temporary.read(".movie.123.part"), "mine");
+  }
+  running.publish();
+  EXPECT_EQ(temporary.read("timing.json"), "of one that lives");
 }
 
 TEST(OutputFolder, LeavesNothingOfARunThatFailed) {
@@ -117,7 +231,7 @@ TEST(OutputFolder, KeepsWhatWasPublishedBefore) {
     folder.publish();
     folder.write("frame1.png", "half");
   }
-  EXPECT_EQ(entries(temporary.path() / "results"), 1U);
+  EXPECT_EQ(entries(temporary.path() / "results"), 2U) << "and the index";
 }
 
 TEST(OutputFolder, TakesAFolderWithATrailingSlash) {

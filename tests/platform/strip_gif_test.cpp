@@ -11,6 +11,7 @@
 
 #include "platform/images/image_codecs.hpp"
 #include "platform/results/legend.hpp"
+#include "platform/results/output_file.hpp"
 #include "platform/results/peak_memory.hpp"
 #include "platform/results/result_images.hpp"
 #include "tests/paths.hpp"
@@ -70,7 +71,8 @@ TEST_F(Strip, AnotherReaderSeesTheFrames) {
   const cv::Size size(160, 48);
   const ColorScale scale = disparity_scale(0, 255);
   const std::vector<double> arrivals{21.2, 31.2, 131.2, 187.0};  // ms
-  StripGif strip(folder_.path() / "strip.gif", size, scale);
+  OutputFile file(folder_ / "strip.gif");
+  StripGif strip(file, size, scale);
   std::vector<cv::Mat> left, disparities;
   for (int i = 0; i < 4; ++i) {
     const std::vector<Disparity> map =
@@ -81,7 +83,7 @@ TEST_F(Strip, AnotherReaderSeesTheFrames) {
   }
   strip.complete();
   EXPECT_FALSE(std::filesystem::exists(folder_ / "strip.gif"));
-  strip.publish();
+  file.publish();
 
   const Animation gif = read_gif(folder_);
   EXPECT_EQ(gif.loop, 0) << "for ever";
@@ -111,10 +113,11 @@ TEST_F(Strip, LargeFramesAreMadeSmaller) {
   const ColorScale scale = disparity_scale(0, 127);
   std::vector<Disparity> map(static_cast<std::size_t>(size.area()));
   for (std::size_t i = map.size() / 2; i < map.size(); ++i) map[i].value = 100 * 16;
-  StripGif strip(folder_.path() / "strip.gif", size, scale);
+  OutputFile file(folder_ / "strip.gif");
+  StripGif strip(file, size, scale);
   strip.add(cv::Mat(size, CV_8UC1, cv::Scalar(200)), {map, size.width, size.height}, 0);
   strip.complete();
-  strip.publish();
+  file.publish();
   const Animation gif = read_gif(folder_);
   ASSERT_EQ(gif.frames.size(), 1U);
   const cv::Mat& frame = gif.frames[0];
@@ -126,10 +129,11 @@ TEST_F(Strip, LargeFramesAreMadeSmaller) {
 
 TEST_F(Strip, TheSmallestFrames) {
   const std::vector<Disparity> map{{0, Cause::kMatched}};
-  StripGif strip(folder_.path() / "strip.gif", {1, 1}, disparity_scale(0, 0));
+  OutputFile file(folder_ / "strip.gif");
+  StripGif strip(file, {1, 1}, disparity_scale(0, 0));
   for (int i = 0; i < 3; ++i) strip.add(cv::Mat(1, 1, CV_8UC1, cv::Scalar(255)), {map, 1, 1}, 1e9 * i);
   strip.complete();
-  strip.publish();
+  file.publish();
   const Animation gif = read_gif(folder_);
   ASSERT_EQ(gif.frames.size(), 3U);
   EXPECT_EQ(gif.frames[2].size(), cv::Size(2, 1));
@@ -142,7 +146,8 @@ TEST(StripFile, MemoryStaysFlat) {
   const cv::Size size(320, 240);
   const std::vector<Disparity> map = test::random_map(size.width, size.height, 3);
   const cv::Mat left = ramp(size, 0);
-  StripGif strip(folder.path() / "strip.gif", size, disparity_scale(0, 255));
+  OutputFile file(folder / "strip.gif");
+  StripGif strip(file, size, disparity_scale(0, 255));
   const auto add = [&](int frames) {
     for (int i = 0; i < frames; ++i) strip.add(left, {map, size.width, size.height}, i);
     return peak_memory_megabytes();
@@ -163,7 +168,8 @@ TEST(StripFile, NothingIsLeftWhenItDoesNotFit) {
   small.rlim_cur = 100'000;
   ::setrlimit(RLIMIT_FSIZE, &small);
   const std::string line = error_line<UserError>([&] {
-    StripGif strip(folder.path() / "strip.gif", size, disparity_scale(0, 255));
+    OutputFile file(folder / "strip.gif");
+    StripGif strip(file, size, disparity_scale(0, 255));
     for (int i = 0; i < 100; ++i) strip.add(ramp(size, i), {map, size.width, size.height}, i);
   });
   ::setrlimit(RLIMIT_FSIZE, &before);
