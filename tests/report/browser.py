@@ -94,11 +94,13 @@ def look(driver, page, script):
     found = {"page": page, "title": driver.title, "text": driver.find_element(By.TAG_NAME, "body").text,
              "images": driver.execute_script(
                  "return [...document.images].map(i => ({alt: i.alt, width: i.naturalWidth}))") if script else [],
+             "markers": len(driver.find_elements(By.CLASS_NAME, "marker")),
              "tables": len(driver.find_elements(By.TAG_NAME, "table"))}
     if script:
         found.update(act(driver))
         found["print_bytes"] = len(driver.print_page())
         driver.set_window_size(500, 900)
+        found["markers"] += len(driver.find_elements(By.CLASS_NAME, "marker"))
         found["sticks_out"] = settled(driver)
         driver.set_window_size(1280, 1000)
     found["console"] = [entry["message"] for entry in driver.get_log("browser") if entry["level"] == "SEVERE"]

@@ -10,6 +10,7 @@
 
 #include "tests/cli/program.hpp"
 #include "tests/paths.hpp"
+#include "tests/report/hostile_folder.hpp"
 
 namespace parallax::test {
 namespace browser_test {
@@ -101,6 +102,27 @@ TEST_F(Browser, OpensThatOfADeadlock) {
   EXPECT_NE(seen.at("text").get<std::string>().find("The machine got stuck"), std::string::npos);
   EXPECT_NE(seen.at("text").get<std::string>().find("streams.left_output.depth = 1959 would free it (now 4)"),
             std::string::npos);
+}
+
+// What a page shows of a folder is text, whatever its names and texts are.
+TEST_F(Browser, MakesNoElementOfAHostileFolder) {
+  ASSERT_EQ(program_("run -q --timing-only --report --out out --size 64x48 -d 32").code, 0);
+  make_hostile(program_, "out");
+  std::filesystem::remove(program_ / "out/report.html");
+  ASSERT_EQ(program_("report -q out").code, 0);
+  ASSERT_EQ(program_("compare-runs -q out out --html out/c.html").code, 0);
+  for (const char* name : {"out/report.html", "out/c.html"}) {
+    for (const char* options : {"", "--no-script"}) {
+      const Json seen = open(program_ / name, options);
+      EXPECT_EQ(seen.at("markers"), 0) << name;
+      EXPECT_EQ(seen.at("console"), Json::array()) << name;
+      EXPECT_NE(seen.at("text").get<std::string>().find("class=marker"), std::string::npos)
+          << "shown as text";
+    }
+  }
+  const Json seen = open(program_ / "out/report.html");
+  for (const Json& canvas : seen.at("canvases_after_choice"))
+    EXPECT_TRUE(canvas.at("drawn").get<bool>()) << canvas;
 }
 
 TEST_F(Browser, ReadsWithoutAScript) {

@@ -13,6 +13,7 @@
 #include "platform/report/report_file.hpp"
 #include "platform/results/version.hpp"
 #include "tests/cli/program.hpp"
+#include "tests/report/hostile_folder.hpp"
 #include "tlm/error.hpp"
 
 namespace parallax::test {
@@ -241,6 +242,26 @@ TEST_F(Report, DamageAnywhereIsAnErrorOfTheUsers) {
   EXPECT_GT(tried, 100U);
   EXPECT_GT(refused, 10U);
   EXPECT_LT(refused, tried);
+}
+
+// The browser's test sees the same in a browser; this one needs none.
+TEST_F(Report, EscapesWhatAFolderHolds) {
+  run("--timing-only --report --size 64x48 -d 32");
+  make_hostile(program_, "out");
+  std::filesystem::remove(program_ / "out/report.html");
+  ASSERT_EQ(program_("report -q out").code, 0);
+  ASSERT_EQ(program_("compare-runs -q out out --html c.html").code, 0);
+  for (const std::string& html : {page(), program_.read("c.html")}) {
+    EXPECT_EQ(html.find("<b class=marker"), std::string::npos);
+    EXPECT_NE(html.find("b class=marker"), std::string::npos);
+    const std::string data = between(html, "id=\"data\"", ">", "</script>");
+    EXPECT_EQ(data.find_first_of("<>&"), std::string::npos);
+    EXPECT_EQ(data.find("\xE2\x80\xA8"), std::string::npos);
+    EXPECT_FALSE(Json::parse(data, nullptr, false).is_discarded());
+  }
+  const Json data = Json::parse(between(page(), "id=\"data\"", ">", "</script>"));
+  const std::string name = "census" + kHostileName;
+  EXPECT_EQ(data.at("stages").at(name), timing().at("stages").at(name)) << "the data stay what they were";
 }
 
 }  // namespace report_test

@@ -85,7 +85,7 @@ std::string latency_section(const ReportInput& input) {
   const std::string suffix = "_first_frame";
   std::string options;
   const auto option = [&](const std::string& name, const char* unit) {
-    options += fmt::format("<option value=\"{}\" data-unit=\"{}\"{}>{}</option>", name, unit,
+    options += fmt::format("<option value=\"{}\" data-unit=\"{}\"{}>{}</option>", escaped(name), unit,
                            name == "exposure_to_host" ? " selected" : "", escaped(words(name)));
   };
   const Json counts = input.profile.is_object() ? input.profile.value("latency", Json()) : Json();

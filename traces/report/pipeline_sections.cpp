@@ -226,12 +226,12 @@ std::string stages_section(const ReportInput& input) {
     const nlohmann::ordered_json::json_pointer interval("/" + stage.name + "/interval");
     std::vector<std::string> cells = {
         escaped(stage.name), number_text(stage.number("cycles_per_frame"), 0),
-        input.configuration.contains(interval) ? json_text(input.configuration.at(interval)) : "1",
+        input.configuration.contains(interval) ? escaped(json_text(input.configuration.at(interval))) : "1",
         fmt::format("{:.1f} %", stage.number("utilisation")), bar + "</span>"};
     for (const ActivityTitle& activity : kActivities)
       cells.push_back(fmt::format("{:.1f} %", share(stage, activity.name)));
-    table.row(cells,
-              fmt::format("id=\"stage-{}\"{}", stage.name, stage.name == limit ? " class=\"limits\"" : ""));
+    table.row(cells, fmt::format("id=\"stage-{}\"{}", escaped(stage.name),
+                                 stage.name == limit ? " class=\"limits\"" : ""));
   }
   return legend() + canvas("chart-stages", "Where the time of each stage goes", true) + table.html();
 }
@@ -253,11 +253,12 @@ std::string fifos_section(const ReportInput& input) {
   double most = -1;
   for (const MetricGroup& stream : streams) {
     const double depth = stream.number("depth");
-    table.row({escaped(stream.name), number_text(depth, 0), metric_text(stream.at("width")),
+    table.row({escaped(stream.name), number_text(depth, 0), escaped(metric_text(stream.at("width"))),
                escaped(stream.word("kind")), number_text(stream.number("mean_occupancy"), 1),
                number_text(stream.number("high_water"), 0), fmt::format("{:.1f} %", stream.number("full")),
-               fmt::format("{:.1f} %", stream.number("empty")), metric_text(stream.at("blocked_on_full")),
-               metric_text(stream.at("starved_on_empty"))});
+               fmt::format("{:.1f} %", stream.number("empty")),
+               escaped(metric_text(stream.at("blocked_on_full"))),
+               escaped(metric_text(stream.at("starved_on_empty")))});
     const double interest = depth + (stuck.count(stream.name) != 0 ? 1e9 : 0);
     if (interest > most) shown = stream.name;
     most = std::max(most, interest);

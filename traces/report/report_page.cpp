@@ -36,10 +36,23 @@ constexpr std::array<Part, 12> kParts = {{{"images", "Images", images_section},
                                           {"numbers", "All numbers", numbers_section},
                                           {"configuration", "Configuration", configuration_section}}};
 
-// A script element ends at the first "</script", whatever quotes it stands in.
-std::string script_safe(std::string text) {
-  for (std::size_t at = text.find("</"); at != std::string::npos; at = text.find("</", at + 3))
-    text.insert(at + 1, "\\");
+// A script element ends at the first "</script", whatever quotes it stands in, and "<!--" begins another
+// syntax: no character that means something in HTML is left. They stand within texts only, where JSON allows
+// to write them so; the two of three bytes end a line of JavaScript.
+std::string script_safe(const std::string& json) {
+  std::string text;
+  for (std::size_t at = 0; at < json.size(); ++at) {
+    const char c = json[at];
+    const std::string three = json.substr(at, 3);
+    if (c == '<' || c == '>' || c == '&') {
+      text += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
+    } else if (three == "\xE2\x80\xA8" || three == "\xE2\x80\xA9") {
+      text += three.back() == '\xA8' ? "\\u2028" : "\\u2029";
+      at += 2;
+    } else {
+      text += c;
+    }
+  }
   return text;
 }
 
