@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+// Inputs that the readers understand, made here: what is changed in a thousand ways.
+#pragma once
+
+#include <fstream>
+#include <iterator>
+#include <opencv2/core.hpp>
+#include <string>
+#include <vector>
+
+#include "modules/map_codec.hpp"
+#include "modules/map_file.hpp"
+#include "platform/images/image_codecs.hpp"
+#include "platform/scene/scene.hpp"
+#include "tests/cli/program.hpp"
+#include "tests/paths.hpp"
+
+namespace parallax::test {
+
+inline std::string content_of(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+inline std::string text_of(const std::vector<std::uint8_t>& bytes) { return {bytes.begin(), bytes.end()}; }
+
+inline std::vector<std::string> preset_seeds() {
+  return {content_of(source_path("platform/presets/scenescan-pro.toml")),
+          "inherits = \"scenescan-pro\"\ndescription = \"d\"\ncamera.row_blanking = 3\n[matching]\np2 = { "
+          "value = "
+          "40, tag = \"S\", "
+          "source = \"s\" }\npaths = \"w, nw, n\"\n[clocks]\ncore_hz = 1e8\n[memory]\nmodel = \"dram\"\n"};
+}
+
+inline std::vector<std::string> assignment_seeds() {
+  return {"matching.p1=3",
+          "clocks.core_hz=1e8",
+          "matching.paths=w,n",
+          "memory.device=ddr3-1066-x32",
+          "matching.p2={value = 40, tag = \"S\", source = \"s\"}",
+          "streams.left_output.kind=\"block_ram\""};
+}
+
+inline std::vector<std::string> device_seeds() {
+  return {content_of(source_path("platform/presets/memory/ddr3-1066-x32.toml"))};
+}
+
+inline std::vector<std::string> row_seeds() {
+  return {content_of(source_path("platform/presets/validation/other-designs.toml")),
+          "[[row]]\nname = \"a\"\nsource = \"b\"\nsize = \"64x48\"\nmetric = \"frame_time\"\nunit = "
+          "\"ms\"\nleast = -1\n"
+          "most = 1\npublished = 3.5\nset = [\"matching.iterations=8\"]\n"};
+}
+
+inline std::vector<std::string> calibration_seeds() {
+  SceneConfig config;
+  config.width = 64;
+  config.height = 48;
+  return {to_yaml(Scene(config).calibration())};
+}
+
+inline std::vector<std::string> map_seeds() {
+  RectificationMap map = identity_map(48, 6, OffsetRange{});
+  std::vector<std::string> seeds{text_of(to_file_bytes(encode(map)))};
+  int value = 0;
+  for (OffsetPair& pair : map.offsets) {
+    value = (value * 31 + 7) % 101;
+    pair.left.dx = static_cast<std::int16_t>(value - 50);
+    pair.right.dy = static_cast<std::int16_t>(50 - value);
+  }
+  seeds.push_back(text_of(to_file_bytes(encode(map))));
+  return seeds;
+}
+
+inline cv::Mat picture(int type) {
+  cv::Mat image(8, 16, type);
+  cv::RNG random(3);
+  random.fill(image, cv::RNG::UNIFORM, 0, 200);
+  return image;
+}
+
+inline std::vector<std::string> image_seeds() {
+  return {text_of(encode_image(".png", picture(CV_8UC1))), text_of(encode_image(".png", picture(CV_16UC1))),
+          text_of(encode_image(".png", picture(CV_8UC3))), text_of(encode_image(".pgm", picture(CV_8UC1))),
+          text_of(encode_image(".bmp", picture(CV_8UC3)))};
+}
+
+inline std::vector<std::string> truth_seeds() { return {text_of(encode_image(".png", picture(CV_16UC1)))}; }
+
+inline std::vector<std::string> trace_seeds() {
+  return {"time_ns,rw,addr,bytes\n0,R,0x0,64\n1.5,W,4096,64\r\n2e3,r,0x7fffffff,1048576\n\n"};
+}
+
+inline std::vector<std::string> result_seeds() {
+  const Program program;
+  program("run -q --timing-only --no-verdict --out out --size 64x48 -d 32");
+  return {program.read("out/timing.json")};
+}
+
+}  // namespace parallax::test
