@@ -6,6 +6,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "platform/input/nesting_depth.hpp"
 #include "platform/input/quoted_text.hpp"
 #include "platform/input/text_file.hpp"
 #include "tlm/error.hpp"
@@ -59,6 +60,7 @@ void check_begin(const std::string& text, const std::string& path) {
 cv::FileStorage parse_file_storage(const std::string& text, const std::string& path) {
   check_begin(text, path);
   check_binary(text, path);
+  check_nesting(text, path);
   try {
     cv::FileStorage file(text, cv::FileStorage::READ | cv::FileStorage::MEMORY);
     if (file.isOpened() && file.root().isMap()) {

@@ -136,6 +136,7 @@ std::vector<std::string> write_raw_maps(const std::string& path, const RawMaps& 
           fmt::format("{} exists and holds something else; move it away, or choose another name than {}",
                       names[i], path));
     }
+    remove_abandoned_of(names[i]);
     files.push_back(std::make_unique<OutputFile>(names[i]));
     files.back()->write(bytes.data(), bytes.size());
     files.back()->close();

@@ -8,6 +8,7 @@
 #include <set>
 #include <utility>
 
+#include "platform/input/nesting_depth.hpp"
 #include "platform/input/number_text.hpp"
 #include "platform/input/quoted_text.hpp"
 #include "tlm/error.hpp"
@@ -22,6 +23,7 @@ std::string without_opencv_head(std::string text) {
 }
 
 YAML::Node first_document(const CalibrationRequest::File& file) {
+  check_nesting(file.text, file.path);
   try {
     return YAML::Load(without_opencv_head(file.text));
   } catch (const YAML::Exception& error) {

@@ -115,13 +115,17 @@ bool remove_if_abandoned(const fs::path& temporary) {
   return removed;
 }
 
-void write_file(const fs::path& target, std::string_view content) {
+void remove_abandoned_of(const fs::path& target) {
   std::error_code ignored;
   const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
   for (fs::directory_iterator entry(folder, ignored), end; entry != end; entry.increment(ignored)) {
     if (target_of_temporary(entry->path().filename().string()) == target.filename().string())
       remove_if_abandoned(entry->path());
   }
+}
+
+void write_file(const fs::path& target, std::string_view content) {
+  remove_abandoned_of(target);
   OutputFile file(target);
   file.write(content);
   file.publish();

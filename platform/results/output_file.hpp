@@ -56,6 +56,9 @@ std::string target_of_temporary(const std::string& name);
 /// Says whether it did.
 bool remove_if_abandoned(const std::filesystem::path& temporary);
 
+/// Removes the temporary files of `target` that are abandoned.
+void remove_abandoned_of(const std::filesystem::path& target);
+
 /// A whole file at once: the old one or the new one, never a part. Temporary files that an earlier attempt at
 /// it left are removed.
 void write_file(const std::filesystem::path& target, std::string_view content);

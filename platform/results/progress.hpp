@@ -28,7 +28,7 @@ class Progress {
 
   void advance(std::int64_t count = 1, Clock::time_point now = Clock::now());
 
-  /// At least this share of the whole is still to be done, whatever is known of parts: 1 - `share`.
+  /// Of the whole, no more than this share is done, 0 to 1: what is known before the first part is.
   void reached(double share, Clock::time_point now = Clock::now());
 
   /// The line after `done` of `total` parts that took `elapsed`.

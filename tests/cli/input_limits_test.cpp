@@ -105,6 +105,25 @@ TEST_F(InputLimits, MapsOfMorePixelsThanMemoryHolds) {
             "parallax: error: /dev/zero: has more than 512 MiB, the most that is read\n");
 }
 
+TEST_F(InputLimits, CalibrationsThatAreTooDeep) {
+  const std::string xml = "<?xml version=\"1.0\"?>\n<opencv_storage>";
+  for (const std::string& text :
+       {"{\"a\": " + repeated("[", 250), "{\"a\": " + repeated("{\"a\": ", 250),
+        "%YAML:1.0\n---\na: " + repeated("[", 250), "%YAML:1.0\n---\na: " + repeated("{a: ", 250),
+        xml + repeated("<a>", 250), "%YAML:1.0\n---\na: \"b\n" + repeated("[", 250)}) {
+    program_.folder().write("c.yml", text);
+    for (const char* option : {"--calibration", "--maps"}) {
+      EXPECT_EQ(error("map encode -o m " + std::string(option) + " c.yml"),
+                "parallax: error: c.yml: nested more than 200 deep, such as no calibration or map is\n");
+    }
+  }
+  std::string steps = "%YAML:1.0\n---\n";
+  for (int i = 0; i < 260; ++i) steps += std::string(static_cast<std::size_t>(i), ' ') + "a:\n";
+  program_.folder().write("c.yml", steps);
+  EXPECT_NE(error("map encode -o m --calibration c.yml").find("nested more than 200 deep"),
+            std::string::npos);
+}
+
 TEST_F(InputLimits, TracesWithoutEnd) {
   EXPECT_EQ(error("memory /dev/zero --config ddr3-1066-x32"),
             "parallax: error: /dev/zero:1: has more than 1000 characters\n");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// One reader under libFuzzer: `fuzz_driver READER [options of libFuzzer] CORPUS...`. `fuzz_driver --seeds READER FOLDER` writes
-// what it begins with, `fuzz_driver --list` the names of the readers. Built by tests/fuzz/run.
+// One reader under libFuzzer: `fuzz_driver READER [options of libFuzzer] CORPUS...`. `fuzz_driver --seeds
+// READER FOLDER` writes what it begins with, `fuzz_driver --list` the names of the readers. Built by
+// tests/fuzz/run.
 #include <cstdint>
 #include <cstdlib>
 #include <iostream>
@@ -8,7 +9,8 @@
 
 #include "tests/fuzz/readers.hpp"
 
-extern "C" int LLVMFuzzerRunDriver(int* argc, char*** argv, int (*read)(const std::uint8_t* data, std::size_t size));
+extern "C" int LLVMFuzzerRunDriver(int* argc, char*** argv,
+                                   int (*read)(const std::uint8_t* data, std::size_t size));
 
 namespace {
 

@@ -17,6 +17,7 @@
 #include "platform/input/address_trace.hpp"
 #include "platform/input/calibration.hpp"
 #include "platform/input/image_input.hpp"
+#include "platform/input/image_pairs.hpp"
 #include "platform/input/map_info.hpp"
 #include "platform/input/raw_map_file.hpp"
 #include "platform/report/comparison_page.hpp"
@@ -78,6 +79,16 @@ inline void read_calibration_file(const TemporaryFolder& folder, const std::stri
   read_calibration({put(folder, "c.yml", bytes)}, {64, 48});
 }
 
+inline void read_raw_maps_file(const TemporaryFolder& folder, const std::string& bytes) {
+  read_raw_maps({put(folder, "m.yml", bytes)});
+}
+
+inline void read_list(const TemporaryFolder& folder, const std::string& bytes) {
+  put(folder, "l.png", "");
+  put(folder, "r.png", "");
+  find_image_pairs(put(folder, "list.txt", bytes));
+}
+
 inline void read_map(const TemporaryFolder&, const std::string& bytes) {
   const EncodedMap map = from_file_bytes({bytes.begin(), bytes.end()}, "map");
   inspect(map);
@@ -120,6 +131,8 @@ inline const std::vector<FuzzedReader>& fuzzed_readers() {
                                                  {"device", device_seeds, read_device},
                                                  {"rows", row_seeds, read_rows},
                                                  {"calibration", calibration_seeds, read_calibration_file},
+                                                 {"raw_maps", raw_map_seeds, read_raw_maps_file},
+                                                 {"list", list_seeds, read_list},
                                                  {"map", map_seeds, read_map},
                                                  {"map_content", map_seeds, read_map_with_checksum},
                                                  {"image", image_seeds, read_pair},

@@ -59,6 +59,21 @@ inline std::vector<std::string> calibration_seeds() {
   return {to_yaml(Scene(config).calibration())};
 }
 
+inline std::vector<std::string> raw_map_seeds() {
+  std::vector<std::string> seeds;
+  for (const char* format : {".yml", ".json", ".xml"}) {
+    cv::FileStorage file(format, cv::FileStorage::WRITE | cv::FileStorage::MEMORY);
+    for (const char* name : {"left_x", "left_y", "right_x", "right_y"})
+      file << name << cv::Mat(3, 4, CV_32F, cv::Scalar(1.5));
+    seeds.push_back(file.releaseAndGetString());
+  }
+  return seeds;
+}
+
+inline std::vector<std::string> list_seeds() {
+  return {"# a pair\nl.png r.png\n\n\"l.png\" r.png # the same\n"};
+}
+
 inline std::vector<std::string> map_seeds() {
   RectificationMap map = identity_map(48, 6, OffsetRange{});
   std::vector<std::string> seeds{text_of(to_file_bytes(encode(map)))};

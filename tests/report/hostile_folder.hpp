@@ -22,6 +22,7 @@ inline bool is_name(const std::string& parent, const nlohmann::ordered_json& ent
 
 inline nlohmann::ordered_json hostile(const nlohmann::ordered_json& tree, const std::string& path = "") {
   using Json = nlohmann::ordered_json;
+  if (tree.is_string() && tree.get<std::string>().empty()) return tree;  // a unit that there is none of
   if (tree.is_string()) {
     const bool names = path.find("/writer/value") != std::string::npos ||
                        path.find("/reader/value") != std::string::npos ||

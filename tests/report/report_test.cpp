@@ -174,6 +174,8 @@ TEST_F(Report, BadInputIsOneLine) {
       error("report out"),
       "parallax: error: out/timing.json: its schema/version is 0, this parallax reads 1; run it again\n");
   EXPECT_FALSE(std::filesystem::exists(program_ / "out/report.html"));
+  std::filesystem::remove(program_ /
+                          "out/timing.json");  // which no run has written, so that none replaces it
   run("--timing-only --size 64x48 -d 32");
   EXPECT_EQ(error("report out/timing.json"),
             "parallax: error: out/timing.json is a file, a report is made of a run's folder\n");

@@ -7,7 +7,7 @@
 
 namespace parallax {
 
-/// `text` as it may stand in HTML, also in an attribute's quotes.
+/// `text` as it may stand in HTML, also in an attribute's double quotes.
 std::string escaped(std::string_view text);
 
 /// A word with its meaning on hover; the word alone where nothing explains it.
