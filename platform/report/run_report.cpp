@@ -30,7 +30,7 @@ std::string read(const fs::path& path) {
       throw UserError(
           fmt::format("{}: has more than {} MiB, no result has so many", path.string(), kMost >> 20));
   }
-  if (in.bad() || text.empty())
+  if (!in.is_open() || in.bad())
     throw UserError(fmt::format("cannot read {}: {}", path.string(), std::generic_category().message(errno)));
   return text;
 }

@@ -9,6 +9,7 @@
 #include <csignal>
 #include <thread>
 
+#include "platform/commands/interruption.hpp"
 #include "tests/cli/program.hpp"
 #include "tests/paths.hpp"
 
@@ -55,6 +56,21 @@ TEST(InterruptedPair, LeavesNothing) {
   EXPECT_EQ(outcome.code, 130) << outcome.err;
   EXPECT_EQ(outcome.err.rfind("parallax: interrupted after ", 0), 0U) << outcome.err;
   EXPECT_EQ(program.files(), std::vector<std::string>{});
+}
+
+// Wherever the program is, a signal ends it.
+TEST(Interruption, EndsWhatDoesNotLookAtIt) {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    const Interruption interruption;
+    ::kill(::getpid(), SIGTERM);
+    for (int i = 0; i < 60; ++i) std::this_thread::sleep_for(std::chrono::seconds(1));
+    ::_exit(0);
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 128 + SIGTERM);
 }
 
 /// What the program writes to a terminal.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <sstream>
+#include <vector>
 
 namespace parallax {
 namespace progress_test {
@@ -47,6 +48,35 @@ TEST(Progress, DrawsAtMostTenTimesASecondAndWipesTheLine) {
   EXPECT_LE(lines, 12);
   EXPECT_NE(text.find("1000/1000 frames"), std::string::npos);
   EXPECT_EQ(text.substr(text.size() - 4), "\r\033[K");
+}
+
+TEST(Progress, SaysOnceHowManyMinutesAreToGo) {
+  std::ostringstream out;
+  std::vector<std::string> notes;
+  const auto note = [&notes](const std::string& line) { notes.push_back(line); };
+  Progress progress(out, false, "frames", 1000, note);
+  const auto start = Progress::Clock::now();
+  progress.advance(1, start + seconds(1));
+  progress.advance(1, start + seconds(2));
+  EXPECT_TRUE(notes.empty()) << "too early to say";
+  progress.advance(1, start + seconds(6));  // two in 5 s: 997 in 2492 s
+  progress.advance(1, start + seconds(9));
+  EXPECT_EQ(notes,
+            std::vector<std::string>{"about 42 minutes to go, 3 of 1000 frames are done; Ctrl-C ends it and "
+                                     "keeps what is complete"});
+  notes.clear();
+  Progress slow(out, false, "frames", 100, note);
+  slow.reached(0.01, start + seconds(10));
+  EXPECT_TRUE(notes.empty());
+  slow.reached(0.01, start + seconds(25));  // 99 times 25 s
+  EXPECT_EQ(notes,
+            std::vector<std::string>{"about 41 minutes to go, 0 of 100 frames are done; Ctrl-C ends it and "
+                                     "keeps what is complete"});
+  notes.clear();
+  Progress soon(out, false, "frames", 100, note);
+  for (int i = 1; i <= 100; ++i) soon.advance(1, start + seconds(i));
+  EXPECT_TRUE(notes.empty()) << "not worth a note";
+  EXPECT_EQ(out.str(), "");
 }
 
 }  // namespace progress_test
