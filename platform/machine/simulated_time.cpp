@@ -17,8 +17,9 @@ constexpr double kSecondsPerDay = 86400;
 
 double checked(const std::string& part, const std::string& keys, double seconds) {
   if (seconds <= kLongestFrame) return seconds;
-  throw UserError(fmt::format("{} would take {:.6g} days for a frame, {:.1f} are the most that simulated time holds ({})",
-                              part, seconds / kSecondsPerDay, kLongestFrame / kSecondsPerDay, keys));
+  throw UserError(
+      fmt::format("{} would take {:.6g} days for a frame, {:.1f} are the most that simulated time holds ({})",
+                  part, seconds / kSecondsPerDay, kLongestFrame / kSecondsPerDay, keys));
 }
 
 }  // namespace
