@@ -75,7 +75,7 @@ cv::FileStorage parse_file_storage(const std::string& text, const std::string& p
   } catch (const cv::Exception& error) {
     throw UserError(
         fmt::format("{}: not an OpenCV YAML, XML or JSON file: {}", path, printable(reason(error))));
-  } catch (const std::length_error&) {
+  } catch (const std::logic_error&) {  // of OpenCV 4.6, std::length_error
     throw UserError(fmt::format("{}: not an OpenCV YAML, XML or JSON file: an entry has no name", path));
   }
   throw UserError(fmt::format("{}: not an OpenCV YAML, XML or JSON file: it has no named entries", path));

@@ -124,6 +124,14 @@ TEST_F(InputLimits, CalibrationsThatAreTooDeep) {
             std::string::npos);
 }
 
+TEST_F(InputLimits, AKeyWithoutAName) {
+  program_.folder().write("c.yml", "%YAML:1.0\n---\na:\n   b: 3\n   :scol 4\n");
+  for (const char* option : {"--calibration", "--maps"}) {
+    EXPECT_EQ(error("map encode -o m " + std::string(option) + " c.yml"),
+              "parallax: error: c.yml: not an OpenCV YAML, XML or JSON file: an entry has no name\n");
+  }
+}
+
 TEST_F(InputLimits, TracesWithoutEnd) {
   EXPECT_EQ(error("memory /dev/zero --config ddr3-1066-x32"),
             "parallax: error: /dev/zero:1: has more than 1000 characters\n");
