@@ -69,8 +69,8 @@ cv::Size size_of_shape(const ArrayLayout& layout, const std::string& name) {
   if (shape.size() == 3 && shape.back() == 1) shape.pop_back();
   if (shape.size() == 3 && shape.front() == 1) shape.erase(shape.begin());
   if (shape.size() != 2 || shape[0] == 0 || shape[1] == 0) {
-    throw UserError(
-        fmt::format("{}: a NumPy array of the shape {}, expected (rows, columns)", name, layout.shape_text));
+    throw UserError(fmt::format("{}: a NumPy array of the shape {}, expected (rows, columns)", name,
+                                excerpt(layout.shape_text)));
   }
   return {shape[1], shape[0]};
 }
@@ -122,7 +122,7 @@ cv::Mat read_npy(const std::vector<std::uint8_t>& bytes, const std::string& name
   if (found == std::end(types)) {
     throw UserError(fmt::format(
         "{}: a NumPy array of the type '{}', expected float32, float64 or integers of 8 to 64 bits", name,
-        layout.type));
+        excerpt(layout.type)));
   }
   const cv::Size size = size_of_shape(layout, name);
   check(size);

@@ -77,7 +77,7 @@ PfmImage read_pfm(const std::vector<std::uint8_t>& bytes, const std::string& nam
     throw UserError(fmt::format(
         "{}: a damaged header: width '{}', height '{}', scale '{}'; expected two numbers of pixels and a "
         "number whose sign is the byte order",
-        name, width, height, scale));
+        name, excerpt(width), excerpt(height), excerpt(scale)));
   }
   check(size);
   const std::size_t wanted =

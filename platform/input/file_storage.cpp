@@ -7,12 +7,13 @@
 #include <stdexcept>
 
 #include "platform/input/nesting_depth.hpp"
-#include "platform/input/quoted_text.hpp"
 #include "platform/input/text_file.hpp"
 #include "tlm/error.hpp"
 
 namespace parallax {
 namespace {
+
+constexpr std::size_t kLongestReason = 200;
 
 // Where OpenCV 4 has the reason for a parsing error: in the place of the function's name, as "FILE(LINE):
 // REASON".
@@ -67,14 +68,14 @@ cv::FileStorage parse_file_storage(const std::string& text, const std::string& p
       std::set<std::string> names;
       for (const cv::FileNode& entry : file.root()) {
         if (!names.insert(entry.name()).second) {
-          throw UserError(fmt::format("{}: {} occurs twice", path, printable(entry.name())));
+          throw UserError(fmt::format("{}: {} occurs twice", path, excerpt(entry.name())));
         }
       }
       return file;
     }
   } catch (const cv::Exception& error) {
-    throw UserError(
-        fmt::format("{}: not an OpenCV YAML, XML or JSON file: {}", path, printable(reason(error))));
+    throw UserError(fmt::format("{}: not an OpenCV YAML, XML or JSON file: {}", path,
+                                excerpt(reason(error), kLongestReason)));
   } catch (const std::logic_error&) {  // of OpenCV 4.6, std::length_error
     throw UserError(fmt::format("{}: not an OpenCV YAML, XML or JSON file: an entry has no name", path));
   }

@@ -68,7 +68,7 @@ LensModel model_of(const FileStorageEntries& file) {
         fmt::format("{}: {} contradicts distortion_model: {}; a lens with equidistant distortion is "
                     "fisheye_equidistant, one "
                     "with radial-tangential distortion pinhole_radtan, and rectified images have none",
-                    file.where(kModelName), printable(camera), printable(distortion)));
+                    file.where(kModelName), excerpt(camera), excerpt(distortion)));
   }
   return distorted;
 }

@@ -6,11 +6,7 @@
 
 namespace parallax {
 
-/// `text` of a file that may hold anything, fit for a line: control characters as ?, the end left out when it
-/// is long.
-std::string printable(std::string_view text);
-
-/// The same between quotation marks.
+/// `text` of a file that may hold anything as a message quotes it: its excerpt() between quotation marks.
 std::string in_quotes(std::string_view text);
 
 }  // namespace parallax

@@ -106,7 +106,8 @@ std::optional<CameraPair> camera_pair(const std::string& option, const std::stri
   char rest = 0;
   if (std::sscanf(text.c_str(), "%3d,%3d%c", &pair.left, &pair.right, &rest) != 2 || pair.left < 0 ||
       pair.right < 0 || pair.left == pair.right) {
-    throw UserError(fmt::format("{}: \"{}\" is not a left and a right camera such as 2,3", option, text));
+    throw UserError(
+        fmt::format("{}: \"{}\" is not a left and a right camera such as 2,3", option, excerpt(text)));
   }
   return pair;
 }

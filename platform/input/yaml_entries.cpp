@@ -28,7 +28,7 @@ YAML::Node first_document(const CalibrationRequest::File& file) {
     return YAML::Load(without_opencv_head(file.text));
   } catch (const YAML::Exception& error) {
     throw UserError(
-        fmt::format("{}: not YAML: line {}: {}", file.path, error.mark.line + 1, printable(error.msg)));
+        fmt::format("{}: not YAML: line {}: {}", file.path, error.mark.line + 1, excerpt(error.msg)));
   }
 }
 
@@ -66,7 +66,7 @@ YamlEntries::YamlEntries(const YAML::Node& node, std::string where) : node_(node
   std::set<std::string> names;
   for (const auto& entry : node_) {
     if (entry.first.IsScalar() && !names.insert(entry.first.Scalar()).second) {
-      throw UserError(fmt::format("{}{} occurs twice", where_, printable(entry.first.Scalar())));
+      throw UserError(fmt::format("{}{} occurs twice", where_, excerpt(entry.first.Scalar())));
     }
   }
 }

@@ -3,6 +3,7 @@
 // a crash, another exception, memory or time without bound, is a fault.
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>
@@ -15,18 +16,18 @@
 #include "platform/config/preset.hpp"
 #include "platform/images/image_codecs.hpp"
 #include "platform/input/address_trace.hpp"
-#include "platform/input/calibration.hpp"
 #include "platform/input/image_input.hpp"
 #include "platform/input/image_pairs.hpp"
 #include "platform/input/map_info.hpp"
 #include "platform/input/raw_map_file.hpp"
+#include "platform/input/read_calibration.hpp"
 #include "platform/report/comparison_page.hpp"
 #include "platform/report/report_file.hpp"
 #include "platform/report/run_comparison.hpp"
 #include "platform/report/run_report.hpp"
-#include "platform/results/ground_truth.hpp"
-#include "platform/scene/scene.hpp"
+#include "platform/results/truth_file.hpp"
 #include "platform/validation/published_row.hpp"
+#include "tests/fuzz/calibration_seeds.hpp"
 #include "tests/fuzz/seeds.hpp"
 #include "tests/platform/temporary_folder.hpp"
 #include "tlm/error.hpp"
@@ -79,6 +80,14 @@ inline void read_calibration_file(const TemporaryFolder& folder, const std::stri
   read_calibration({put(folder, "c.yml", bytes)}, {64, 48});
 }
 
+inline void read_calibration_pair(const TemporaryFolder& folder, const std::string& bytes) {
+  const std::size_t end = std::min(bytes.find(kNextFile), bytes.size());
+  const std::size_t next = std::min(end + std::string(kNextFile).size(), bytes.size());
+  read_calibration(
+      {put(folder, "left.yml", bytes.substr(0, end)), put(folder, "right.yml", bytes.substr(next))},
+      {64, 48});
+}
+
 inline void read_raw_maps_file(const TemporaryFolder& folder, const std::string& bytes) {
   read_raw_maps({put(folder, "m.yml", bytes)});
 }
@@ -108,12 +117,12 @@ inline void read_map_with_checksum(const TemporaryFolder& folder, std::string by
 
 inline void read_pair(const TemporaryFolder& folder, const std::string& bytes) {
   const std::string path = put(folder, "left.png", bytes);
-  ImageInput sequence({{path, path}}, ImageLimits{}, [](const std::string&) {});
+  ImageInput sequence({{path, path}}, {}, [](const std::string&) {});
   sequence.load(0);
 }
 
 inline void read_truth(const TemporaryFolder& folder, const std::string& bytes) {
-  read_ground_truth(put(folder, "t.png", bytes), "", 16, 8);
+  read_ground_truth({put(folder, "t.png", bytes), "", {}}, 16, 8, [](const std::string&) {});
 }
 
 inline void read_trace(const TemporaryFolder& folder, const std::string& bytes) {
@@ -126,19 +135,21 @@ inline void read_results(const TemporaryFolder& folder, const std::string& bytes
 }
 
 inline const std::vector<FuzzedReader>& fuzzed_readers() {
-  static const std::vector<FuzzedReader> readers{{"preset", preset_seeds, read_preset},
-                                                 {"assignment", assignment_seeds, read_assignment_of},
-                                                 {"device", device_seeds, read_device},
-                                                 {"rows", row_seeds, read_rows},
-                                                 {"calibration", calibration_seeds, read_calibration_file},
-                                                 {"raw_maps", raw_map_seeds, read_raw_maps_file},
-                                                 {"list", list_seeds, read_list},
-                                                 {"map", map_seeds, read_map},
-                                                 {"map_content", map_seeds, read_map_with_checksum},
-                                                 {"image", image_seeds, read_pair},
-                                                 {"truth", truth_seeds, read_truth},
-                                                 {"trace", trace_seeds, read_trace},
-                                                 {"results", result_seeds, read_results}};
+  static const std::vector<FuzzedReader> readers{
+      {"preset", preset_seeds, read_preset},
+      {"assignment", assignment_seeds, read_assignment_of},
+      {"device", device_seeds, read_device},
+      {"rows", row_seeds, read_rows},
+      {"calibration", calibration_seeds, read_calibration_file},
+      {"calibration_pair", calibration_pair_seeds, read_calibration_pair},
+      {"raw_maps", raw_map_seeds, read_raw_maps_file},
+      {"list", list_seeds, read_list},
+      {"map", map_seeds, read_map},
+      {"map_content", map_seeds, read_map_with_checksum},
+      {"image", image_seeds, read_pair},
+      {"truth", truth_seeds, read_truth},
+      {"trace", trace_seeds, read_trace},
+      {"results", result_seeds, read_results}};
   return readers;
 }
 

@@ -11,7 +11,6 @@
 #include "modules/map_codec.hpp"
 #include "modules/map_file.hpp"
 #include "platform/images/image_codecs.hpp"
-#include "platform/scene/scene.hpp"
 #include "tests/cli/program.hpp"
 #include "tests/paths.hpp"
 
@@ -50,13 +49,6 @@ inline std::vector<std::string> row_seeds() {
           "[[row]]\nname = \"a\"\nsource = \"b\"\nsize = \"64x48\"\nmetric = \"frame_time\"\nunit = "
           "\"ms\"\nleast = -1\n"
           "most = 1\npublished = 3.5\nset = [\"matching.iterations=8\"]\n"};
-}
-
-inline std::vector<std::string> calibration_seeds() {
-  SceneConfig config;
-  config.width = 64;
-  config.height = 48;
-  return {to_yaml(Scene(config).calibration())};
 }
 
 inline std::vector<std::string> raw_map_seeds() {
@@ -100,10 +92,20 @@ inline std::vector<std::string> image_seeds() {
           text_of(encode_image(".bmp", picture(CV_8UC3)))};
 }
 
-inline std::vector<std::string> truth_seeds() { return {text_of(encode_image(".png", picture(CV_16UC1)))}; }
+// 16x8 floats as a portable float map and as an array of NumPy, both little-endian.
+inline std::vector<std::string> truth_seeds() {
+  const cv::Mat image = picture(CV_32FC1);
+  const std::string values(reinterpret_cast<const char*>(image.data), image.total() * image.elemSize());
+  const std::string layout = "{'descr': '<f4', 'fortran_order': False, 'shape': (8, 16), }\n";
+  return {text_of(encode_image(".png", picture(CV_16UC1))), text_of(encode_image(".png", picture(CV_8UC1))),
+          text_of(encode_image(".tif", image)), "Pf\n16 8\n-1.0\n" + values,
+          std::string("\x93NUMPY\x01") + '\0' + static_cast<char>(layout.size()) + '\0' + layout + values};
+}
 
 inline std::vector<std::string> trace_seeds() {
-  return {"time_ns,rw,addr,bytes\n0,R,0x0,64\n1.5,W,4096,64\r\n2e3,r,0x7fffffff,1048576\n\n"};
+  return {"time_ns,rw,addr,bytes\n0,R,0x0,64\n1.5,W,4096,64\r\n2e3,r,0x7fffffff,1048576\n\n",
+          "# Ramulator\n0x1234 R\n0x40 W\n", "LD 0x1234\nST 4096\n", "0x1234 READ 10\n0x40 WRITE 12\n",
+          "# DRAMSys\n10: read 0x1234\n12: (64) write 0x40 0011\n"};
 }
 
 inline std::vector<std::string> result_seeds() {
