@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kHead =
+constexpr const char* kIndexHead =
     "# What parallax wrote into this folder: bytes, CRC-32, name. A file that is not named here, or that has "
     "changed since, "
     "is left alone.\n";
@@ -84,7 +84,7 @@ void FileIndex::add(const std::vector<std::pair<std::string, FileContent>>& file
       throw UserError(fmt::format("cannot write {}: {}", (folder_ / kName).string(), std::strerror(errno)));
     }
   } else {
-    std::string before = kHead;
+    std::string before = kIndexHead;
     for (const auto& [name, contents] : known_) {
       for (const FileContent& content : contents) before += line_of(name, content);
     }

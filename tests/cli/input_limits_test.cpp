@@ -7,6 +7,7 @@
 #include <string>
 
 #include "tests/cli/program.hpp"
+#include "tests/fuzz/calibration_seeds.hpp"
 
 namespace parallax {
 namespace input_limits_test {
@@ -129,6 +130,40 @@ TEST_F(InputLimits, AKeyWithoutAName) {
   for (const char* option : {"--calibration", "--maps"}) {
     EXPECT_EQ(error("map encode -o m " + std::string(option) + " c.yml"),
               "parallax: error: c.yml: not an OpenCV YAML, XML or JSON file: an entry has no name\n");
+  }
+}
+
+// Whatever is quoted of a calibration, it is little.
+TEST_F(InputLimits, CalibrationsOfLongWords) {
+  const std::string word(1'000'000, 'w');
+  const auto damaged = [&](std::string text, const std::string& what) {
+    const std::size_t at = text.find(what);
+    EXPECT_NE(at, std::string::npos) << what;
+    return text.replace(at, what.size(), word);
+  };
+  const std::vector<std::string> seeds = test::calibration_seeds();
+  for (const std::string& text :
+       {damaged(seeds[0], "pinhole"), damaged(seeds[1], "pinhole"), damaged(seeds[1], "46.5"),
+        damaged(seeds[2], "5.0e+01"), damaged(seeds[3], "5.1e+01"), damaged(seeds[4], "0 31.5"),
+        damaged(seeds[1], "[46.5"), word + ": 1\n" + word + ": 2\n" + seeds[1], word}) {
+    program_.folder().write("c.yml", text);
+    error("map encode -o m --size 64x48 --calibration c.yml");
+  }
+  program_.folder().write("l.yml", test::ros_camera("0."));
+  program_.folder().write("r.yml", damaged(test::ros_camera("-4.5"), "plumb_bob"));
+  error("map encode -o m --calibration l.yml r.yml");
+  error("map encode -o m --calibration l.yml l.yml --cameras " + word);
+}
+
+TEST_F(InputLimits, TruthsOfLongWords) {
+  ASSERT_EQ(program_("scene --rectified --size 64x48 --disparities 32 --out g").code, 0);
+  for (const std::string& text :
+       {"Pf\n" + std::string(100'000, 'w') + " 48\n-1\n", "Pf " + std::string(60, '\x1b') + "\n",
+        "\x93NUMPY\x01" + std::string(1, '\0') + std::string(1, '\xB8') + std::string(1, '\x0B') +
+            "{'descr': '<f" + std::string(2800, '4') + "', 'fortran_order': False, 'shape': (48, 64)}" +
+            std::string(1000, ' ')}) {
+    program_.folder().write("t", text);
+    error("run -d 32 --left g/left.png --right g/right.png --ground-truth t");
   }
 }
 

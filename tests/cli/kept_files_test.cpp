@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "tests/cli/program.hpp"
+#include "tests/fuzz/calibration_seeds.hpp"
 
 namespace parallax {
 namespace kept_files_test {
@@ -60,6 +61,23 @@ TEST_F(KeptFiles, AnInputIsNotReplacedByAResult) {
   EXPECT_NE(refusal(pair + "--ground-truth link/disparity.png --out ./g/../g"), "");
   EXPECT_NE(refusal(pair + "--ground-truth g/disparity.png --out link"), "");
   EXPECT_EQ(program_(pair + "--ground-truth g/disparity.png --out other").code, 0);
+}
+
+TEST_F(KeptFiles, NoFileOfAnInputInSeveralIsReplaced) {
+  const std::string pair = std::string(kRun) + "--left g/left.png --right g/right.png ";
+  program_.folder().write("left.yaml", test::ros_camera("0."));
+  program_.folder().write("g/timing.json", test::ros_camera("-4.5"));
+  EXPECT_NE(refusal(pair + "--calibration left.yaml g/timing.json --out g")
+                .find("would replace or remove --calibration g/timing.json"),
+            std::string::npos);
+  EXPECT_NE(refusal("map encode --calibration left.yaml g/timing.json -o g/timing.json")
+                .find("would replace --calibration g/timing.json"),
+            std::string::npos);
+  fs::remove(program_ / "g/timing.json");
+  program_.folder().write("g/disparity.bin", "Pf\n64 48\n-1\n" + std::string(std::size_t{64} * 48 * 4, '@'));
+  EXPECT_NE(refusal(pair + "--ground-truth g/disparity.bin --out g")
+                .find("would replace or remove --ground-truth g/disparity.bin"),
+            std::string::npos);
 }
 
 TEST_F(KeptFiles, TheFilesOfAListAreNotReplaced) {
