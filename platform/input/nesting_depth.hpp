@@ -7,9 +7,9 @@
 
 namespace parallax {
 
-/// How deep the parts of a text lie within each other: brackets and braces outside quotes, and blanks before
-/// a line, of YAML and JSON; elements of a text that begins as XML does. At least what a parser goes down,
-/// for a text that is well formed or not.
+/// How deep the parts of a text lie within each other: brackets and braces of YAML and JSON, with the blanks
+/// before a line of YAML and the colons and dashes in it; elements of a text that begins as XML does. At
+/// least what a parser goes down, for a text that is well formed or not.
 std::size_t nesting_depth(std::string_view text);
 
 /// Parsers of OpenCV and yaml-cpp go down with a text, and their stack ends before one of a megabyte does.

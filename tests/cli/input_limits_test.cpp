@@ -111,7 +111,11 @@ TEST_F(InputLimits, CalibrationsThatAreTooDeep) {
   for (const std::string& text :
        {"{\"a\": " + repeated("[", 250), "{\"a\": " + repeated("{\"a\": ", 250),
         "%YAML:1.0\n---\na: " + repeated("[", 250), "%YAML:1.0\n---\na: " + repeated("{a: ", 250),
-        xml + repeated("<a>", 250), "%YAML:1.0\n---\na: \"b\n" + repeated("[", 250)}) {
+        xml + repeated("<a>", 250), xml + repeated("<a><!--</a>-->", 250),
+        "%YAML:1.0\n---\na: \"b\n" + repeated("[", 250), "%YAML:1.0\n---\na\": " + repeated("[", 250),
+        "%YAML:1.0\n---\na: " + repeated("- ", 250), "%YAML:1.0\n---\n" + repeated("a: ", 250),
+        "%YAML:1.0\n---\na[: " + repeated("- a: ", 250),
+        "%YAML:1.0\n---\na #: " + repeated("- ", 250)}) {
     program_.folder().write("c.yml", text);
     for (const char* option : {"--calibration", "--maps"}) {
       EXPECT_EQ(error("map encode -o m " + std::string(option) + " c.yml"),
@@ -152,7 +156,7 @@ TEST_F(InputLimits, CalibrationsOfLongWords) {
   program_.folder().write("l.yml", test::ros_camera("0."));
   program_.folder().write("r.yml", damaged(test::ros_camera("-4.5"), "plumb_bob"));
   error("map encode -o m --calibration l.yml r.yml");
-  error("map encode -o m --calibration l.yml l.yml --cameras " + word);
+  error("map encode -o m --calibration l.yml l.yml --cameras " + word.substr(0, 100'000));
 }
 
 TEST_F(InputLimits, TruthsOfLongWords) {
