@@ -189,7 +189,7 @@ TEST_F(KalibrCalibration, DamageIsNamed) {
             "cam1: T_cn_cnm1: the last row is 0, 0, 0, 2; that of a transform is 0, 0, 0, 1");
   EXPECT_EQ(changed("-0.1]", "0]"), "cam1: T_cn_cnm1: the baseline is zero");
   EXPECT_EQ(changed("camera_model: pinhole", "camera_model: \"pin\\nhole\""),
-            "cam1: camera_model: \"pin?hole\" is not supported, only pinhole");
+            "cam1: camera_model: \"pin hole\" is not supported, only pinhole");
   EXPECT_EQ(changed("cam1:", "cam1: 5\nx:"), "cam1: no named entries");
   EXPECT_EQ(line(camera(0, "")), "cam1 is missing");
   EXPECT_EQ(changed("  camera_model: pinhole", " camera_model: pinhole").find("not YAML: line "), 0U);
