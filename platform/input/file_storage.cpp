@@ -27,7 +27,7 @@ std::string reason(const cv::Exception& error) {
   return error.err;
 }
 
-// OpenCV 4.6 does not come back from a text in which anything but a block follows this tag.
+// OpenCV 4.6 does not come back from some texts with this tag.
 void check_binary(const std::string& text, const std::string& path) {
   const std::string tag = "!!binary";
   for (std::size_t at = text.find(tag); at != std::string::npos; at = text.find(tag, at)) {
@@ -45,7 +45,7 @@ void check_begin(const std::string& text, const std::string& path) {
     throw UserError(fmt::format("{}: not an OpenCV YAML, XML or JSON file: it is empty", path));
   }
   const bool xml = text.compare(0, 5, "<?xml") == 0;
-  // OpenCV 4.6 reads on behind the end of an XML text that ends within a tag.
+  // OpenCV 4.6 reads on behind the end of some XML texts.
   if (xml && text[text.find_last_not_of(" \t\r\n")] != '>') {
     throw UserError(fmt::format("{}: not an OpenCV YAML, XML or JSON file: it ends too early", path));
   }
