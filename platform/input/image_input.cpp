@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 cv::Mat decode(const fs::path& path, const ImageLimits& limits) {
-  const cv::Mat image = read_image_file(path.string(), "image", [&](const cv::Size& size) {
+  cv::Mat image = read_image_file(path.string(), "image", [&](const cv::Size& size) {
     if (size.width <= limits.width && size.height <= limits.height) return;
     throw UserError(fmt::format("image {} is {}, larger than the largest size {}x{}", path.string(),
                                 size_text(size), limits.width, limits.height));

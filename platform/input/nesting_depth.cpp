@@ -86,10 +86,10 @@ std::size_t nesting_depth(std::string_view text) {
 
 void check_nesting(const std::string& text, const std::string& path) {
   // An indentation may be wide.
-  constexpr std::size_t kDeepest = 200;
-  if (nesting_depth(text) > kDeepest)
+  constexpr std::size_t kDeepestNesting = 200;
+  if (nesting_depth(text) > kDeepestNesting)
     throw UserError(
-        fmt::format("{}: nested more than {} deep, such as no calibration or map is", path, kDeepest));
+        fmt::format("{}: nested more than {} deep, such as no calibration or map is", path, kDeepestNesting));
 }
 
 }  // namespace parallax

@@ -118,7 +118,7 @@ std::vector<std::string> raw_map_names(const std::string& path) {
 }
 
 std::vector<std::string> write_raw_maps(const std::string& path, const RawMaps& maps) {
-  const std::vector<std::string> names = raw_map_names(path);
+  std::vector<std::string> names = raw_map_names(path);
   const std::string extension = std::filesystem::path(path).extension().string();
   if (is_file_storage(extension)) {
     cv::FileStorage file(extension, cv::FileStorage::WRITE | cv::FileStorage::MEMORY);

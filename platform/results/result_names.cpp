@@ -58,7 +58,7 @@ bool is_planned(const ResultPlan& plan, const std::string& path) {
   }
   return is_of_run(plan, name) || (!plan.sequence && is_of_frame(plan, name)) ||
          std::any_of(plan.traces.begin(), plan.traces.end(),
-                     [&name_ = name](const std::string& format) { return is_trace(format, name_); });
+                     [&result = name](const std::string& format) { return is_trace(format, result); });
 }
 
 bool is_result_name(const std::string& path) {

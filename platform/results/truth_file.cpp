@@ -89,7 +89,7 @@ TruthValues read_truth_values(const std::string& path, std::size_t most, const S
 
 cv::Mat read_mask(const std::string& path, const SizeCheck& check) {
   const cv::Mat image = read_image_file(path, kMaskFile, check);
-  const cv::Mat mask = grey(image);
+  cv::Mat mask = grey(image);
   if (mask.type() != CV_8UC1) {
     throw UserError(fmt::format("{}: the {} is {}, it must be 8 bit with 1 channel (255 = score)", path,
                                 kMaskFile, format_text(image)));

@@ -114,8 +114,7 @@ TEST_F(InputLimits, CalibrationsThatAreTooDeep) {
         xml + repeated("<a>", 250), xml + repeated("<a><!--</a>-->", 250),
         "%YAML:1.0\n---\na: \"b\n" + repeated("[", 250), "%YAML:1.0\n---\na\": " + repeated("[", 250),
         "%YAML:1.0\n---\na: " + repeated("- ", 250), "%YAML:1.0\n---\n" + repeated("a: ", 250),
-        "%YAML:1.0\n---\na[: " + repeated("- a: ", 250),
-        "%YAML:1.0\n---\na #: " + repeated("- ", 250)}) {
+        "%YAML:1.0\n---\na[: " + repeated("- a: ", 250), "%YAML:1.0\n---\na #: " + repeated("- ", 250)}) {
     program_.folder().write("c.yml", text);
     for (const char* option : {"--calibration", "--maps"}) {
       EXPECT_EQ(error("map encode -o m " + std::string(option) + " c.yml"),
