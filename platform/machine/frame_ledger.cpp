@@ -13,11 +13,15 @@ namespace {
 // under way, and than a queue usually takes to fill, as the steady state begins with one of them.
 constexpr std::size_t kRecords = 1024;
 
-// By which the phases of two clocks move a latency.
-sc_core::sc_time few_cycles(const MachineConfig& config) {
+// By which the phases of two clocks and the memory's refreshes move a latency from frame to frame.
+sc_core::sc_time jitter_of(const MachineConfig& config) {
   const ClockConfig& clocks = config.clocks;
   const std::int64_t slowest = std::min({clocks.core_hz, clocks.camera_hz, clocks.link_hz});
-  return sc_core::sc_time(4.0 / static_cast<double>(slowest), sc_core::SC_SEC);
+  const DramTiming& dram = config.memory.dram;
+  const std::int64_t refreshes =
+      config.memory.model == MemoryModel::kDram ? 2 * dram.rfc * dram.clock_period_ps : 0;
+  return sc_core::sc_time(4.0 / static_cast<double>(slowest), sc_core::SC_SEC) +
+         sc_core::sc_time(static_cast<double>(refreshes), sc_core::SC_PS);
 }
 
 }  // namespace
@@ -26,7 +30,7 @@ FrameLedger::FrameLedger(const MachineConfig& config, std::int64_t frames, StepL
     : kept_(warm_up_frames(config) + kRecords),
       listener_(std::move(listener)),
       latencies_(steady_first(config, frames)),
-      trend_(steady_first(config, frames), few_cycles(config)) {
+      trend_(steady_first(config, frames), jitter_of(config)) {
   times_.keep(kept_);
   snapshots_.keep(kept_);
 }

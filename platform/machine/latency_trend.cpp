@@ -26,13 +26,12 @@ bool LatencyTrend::add(std::size_t frame, const sc_core::sc_time& latency) {
   return rising_;
 }
 
-// A part of a block has it when it moves as fast as a whole one would have to.
 bool LatencyTrend::has_trend() const {
   const bool one_way = std::is_sorted(block_.begin(), block_.end()) ||
                        std::is_sorted(block_.begin(), block_.end(), std::greater<>());
   if (!one_way) return false;
   const double least = std::max(kShare * block_.back().to_seconds(), tolerance_.to_seconds());
-  return std::abs(slope_of(block_)) * static_cast<double>(kBlock - 1) > least;
+  return std::abs(block_.back().to_seconds() - block_.front().to_seconds()) > least;
 }
 
 double LatencyTrend::slope() const {

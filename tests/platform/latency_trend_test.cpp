@@ -51,6 +51,14 @@ TEST(LatencyTrend, AQueueThatEmptiesHasOne) {
   EXPECT_NEAR(trend.slope(), -4e-6, 1e-9);
 }
 
+// Three frames that happen to rise by less than the tolerance, though a whole block at that pace would not.
+TEST(LatencyTrend, AFewFramesThatRiseALittleHaveNone) {
+  LatencyTrend trend(0, us(0.5));
+  for (const double latency : {4218.0, 4218.2, 4218.4}) trend.add(0, us(latency));
+  EXPECT_TRUE(trend.settled());
+  EXPECT_EQ(trend.slope(), 0);
+}
+
 // Phases of clocks: a few cycles; the refresh and jitter: up and down.
 TEST(LatencyTrend, PhasesAndJitterAreNone) {
   LatencyTrend phases(0, us(0.1));
