@@ -3,11 +3,18 @@
 
 #include <fmt/format.h>
 
+#include <cstdint>
+
 #include "platform/config/dram_device.hpp"
 #include "platform/config/schema.hpp"
 #include "tlm/error.hpp"
 
 namespace parallax {
+namespace {
+
+constexpr std::int64_t picoseconds(std::uint32_t ns) { return std::int64_t{1000} * ns; }
+
+}  // namespace
 
 void MemoryConfig::validate() const {
   if (model == MemoryModel::kBus) return;
@@ -29,12 +36,17 @@ void MemoryConfig::validate() const {
   }
 }
 
+Cycles MemoryConfig::latency(const ClockDomain& clock) const {
+  return Cycles(latency_cycles) + clock.cycle_at_or_after(Picoseconds(picoseconds(latency_ns)));
+}
+
 DramMemory MemoryConfig::dram_memory() const {
   DramMemory memory;
   memory.timing = dram;
   memory.policy = {read_queue, write_queue, write_high, write_low, write_batch, efficiency};
   memory.mapping = mapping;
-  memory.latency = latency_cycles;
+  memory.latency =
+      latency_cycles + (picoseconds(latency_ns) + dram.clock_period_ps - 1) / dram.clock_period_ps;
   memory.arbitration = arbitration;
   return memory;
 }
@@ -50,6 +62,11 @@ void describe(Schema& schema, MemoryConfig& config) {
       "Bus: cycles from a request that finds it idle to its first data. DRAM: clocks of the devices that "
       "ports, interconnect and PHY add to each answer.",
       inferred("about 120 ns through controller and interconnect, usual for a Zynq-7000-class platform"));
+  schema.integer(
+      "memory.latency_ns", config.latency_ns, {0, 1'000'000}, "ns",
+      "Latency beside memory.latency_cycles that a faster memory clock does not shorten: of ports, "
+      "interconnect and PHY. In whole cycles of the memory, rounded up.",
+      chosen("none by default; either key says all of it"));
   schema.integer(
       "memory.efficiency", config.efficiency, {1, 100}, "%",
       "Bus: share of the peak bandwidth that is left after refresh, row changes and bus turn-around. "

@@ -30,7 +30,7 @@ inline MachineConfig pipeline_alone(MachineConfig config) {
   config.clocks.memory_hz = kFast;
   config.clocks.camera_hz = kFast;
   config.memory.bytes_per_cycle = 1024;
-  config.memory.latency_cycles = 0;
+  config.memory.latency_cycles = config.memory.latency_ns = 0;
   config.memory.efficiency = 100;
   config.camera.bytes_per_second = 1'000'000'000'000;
   config.camera.row_blanking = 0;

@@ -69,7 +69,7 @@ inline MachineCase random_machine(std::uint32_t seed, Contention contention) {
     // All ports at once are served within any cycle of the others' clocks.
     for (const char* fast :
          {"memory.model=bus", "clocks.memory_hz=10000000000", "memory.bytes_per_cycle=1024",
-          "memory.efficiency=100", "memory.latency_cycles=0"}) {
+          "memory.efficiency=100", "memory.latency_cycles=0", "memory.latency_ns=0"}) {
       c.others.emplace_back(fast);
     }
   } else {
