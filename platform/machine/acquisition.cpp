@@ -22,10 +22,10 @@ std::int64_t row_bytes(const MachineConfig& config, const MachineInput& input) {
 // A row takes its pixels and the blanking at the pixel clock, or as long as the cable needs for it.
 SensorConfig sensor_config(const MachineConfig& config, const MachineInput& input) {
   const std::int64_t read_out = std::int64_t{input.width} + config.camera.row_blanking;
-  const std::int64_t cable =
-      (row_bytes(config, input) * config.clocks.camera_hz + config.camera.bytes_per_second - 1) /
-      config.camera.bytes_per_second;
+  const Ratio byte_time(config.clocks.camera_hz, config.camera.bytes_per_second);
+  const auto cable = static_cast<std::int64_t>(byte_time.ceil(row_bytes(config, input)));
   SensorConfig sensor;
+  sensor.byte_time = byte_time;
   sensor.width = input.width;
   sensor.height = input.height;
   sensor.row = Cycles(std::max(read_out, cable));

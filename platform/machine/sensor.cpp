@@ -52,12 +52,15 @@ void Sensor::advance() {
   }
 }
 
-// When a byte of the image is there: with the pixel that its last bit belongs to.
+// When a byte of the image is there: with the pixel that its last bit belongs to, and not before the cable has
+// brought it.
 Cycles Sensor::due(std::int64_t byte) const {
-  const std::int64_t last_bit = (byte % row_bytes() + 1) * 8 - 1;
+  const std::int64_t bytes = byte % row_bytes() + 1;  // of the row
+  const std::int64_t last_bit = bytes * 8 - 1;
   std::int64_t row = byte / row_bytes();
   if (row >= lost_.first) row += lost_.count;
-  return begin_ + config_.row * row + Cycles(last_bit / bits_per_pixel(config_.format) + 1);
+  const Cycles pixel(last_bit / bits_per_pixel(config_.format) + 1);
+  return begin_ + config_.row * row + std::max(pixel, Cycles(config_.byte_time.ceil(bytes)));
 }
 
 void Sensor::send(const SensorImage& image) {

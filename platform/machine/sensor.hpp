@@ -10,6 +10,7 @@
 
 #include "modules/pixel.hpp"
 #include "modules/pixel_format.hpp"
+#include "tlm/ratio.hpp"
 #include "tlm/ring.hpp"
 #include "tlm/stream.hpp"
 #include "tlm/units.hpp"
@@ -20,6 +21,7 @@ struct SensorConfig {
   int width = 0;   ///< px
   int height = 0;  ///< px
   Cycles row{0};   ///< pixel clocks from one row's first pixel to the next one's
+  Ratio byte_time{1, 1'000'000'000'000};  ///< pixel clocks that a byte takes on the cable
   Cycles frame_blanking{0};
   Bytes burst{128};
   PixelFormat format = PixelFormat::kMono8;
@@ -42,7 +44,8 @@ struct LostRows {
 };
 
 /// One sensor of the stereo camera with its cable: reads an exposed image out in raster order, a row every
-/// `row` cycles, a pixel a cycle in its format, and hands its bytes on in bursts. It cannot wait: a burst
+/// `row` cycles, a pixel a cycle in its format, and hands its bytes on in bursts, none before the cable has
+/// brought it and those of the row before it. It cannot wait: a burst
 /// that finds the FIFO full is late. A burst's date is handed on as soon as it is known that there is room
 /// for it then.
 class Sensor final : public sc_core::sc_module, public Actor {
