@@ -9,7 +9,7 @@
 namespace parallax {
 
 void ImageConfig::validate() const {
-  if (width > max_width) {
+  if (max_width != 0 && width > max_width) {
     throw UserError(fmt::format("image.width = {}: must be at most image.max_width = {}", width, max_width));
   }
   if (height > max_height) {
@@ -29,8 +29,10 @@ void describe(Schema& schema, ImageConfig& config) {
   schema.integer("image.height_granularity", config.height_granularity, {1, 1024}, "px",
                  "The machine processes heights that are multiples of this.",
                  derived("all published sizes have a height that is a multiple of 16"));
-  schema.integer("image.max_width", config.max_width, {1, 65536}, "px", "Largest width.",
-                 stated("paper, section Results: 1856 x 1856"));
+  schema.integer(
+      "image.max_width", config.max_width, {0, 65536}, "px", "Largest width; 0 is as wide as the tiles hold.",
+      derived("paper, section Results: 1856 x 1856; two tiles of 1024 columns hold as many with 128 "
+              "disparities"));
   schema.integer("image.max_height", config.max_height, {1, 65536}, "px", "Largest height.",
                  stated("paper, section Results: 1856 x 1856"));
 }

@@ -19,7 +19,7 @@ struct ImageConfig {
   std::uint32_t height = 0;               ///< 0 = from the images; own choice
   std::uint32_t width_granularity = 32;   ///< widths are multiples of this, 1 to 1024; D
   std::uint32_t height_granularity = 16;  ///< heights are multiples of this, 1 to 1024; D
-  std::uint32_t max_width = 1856;         ///< 1 to 65536; S
+  std::uint32_t max_width = 0;            ///< to 65536; 0 = as wide as the tiles hold; D
   std::uint32_t max_height = 1856;        ///< 1 to 65536; S
 
   Granularity granularity() const {

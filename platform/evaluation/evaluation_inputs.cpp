@@ -23,8 +23,8 @@ const FrameSource& EvaluationInputs::source_for(const MachineConfig& config, con
   const bool scene = options_.left.empty() && options_.input.empty();
   const DisparityRange range = scene ? config.matching.range() : DisparityRange{};
   const ImageConfig& image = config.image;
-  const SourceKey key{image.width,      image.height, image.max_width,
-                      image.max_height, range.offset, range.count};
+  const ImageLimits largest = largest_images(config);
+  const SourceKey key{image.width, image.height, largest.width, largest.height, range.offset, range.count};
   if (source_ == nullptr || key != source_key_) {
     source_ = open_source(options_, config, notice);
     source_key_ = key;

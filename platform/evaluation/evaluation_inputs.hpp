@@ -24,7 +24,7 @@ class EvaluationInputs {
   EvaluationInput prepare(const MachineConfig& config, const NoticeSink& notice);
 
  private:
-  using SourceKey = std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, std::uint32_t, int, int>;
+  using SourceKey = std::tuple<std::uint32_t, std::uint32_t, int, int, int, int>;
   using MapKey = std::tuple<int, int, int, int, int, int>;
 
   const FrameSource& source_for(const MachineConfig& config, const NoticeSink& notice);

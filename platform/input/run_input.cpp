@@ -7,20 +7,15 @@
 #include <cstdio>
 #include <utility>
 
+#include "platform/input/image_padding.hpp"
 #include "platform/input/image_pairs.hpp"
+#include "platform/machine/tile_plan.hpp"
 #include "tlm/error.hpp"
 
 namespace parallax {
 namespace {
 
 constexpr std::int64_t kMostFrames = 1'000'000'000;
-
-ImageLimits limits(const MachineConfig& config) {
-  ImageLimits largest;
-  largest.width = config.image.max_width;
-  largest.height = config.image.max_height;
-  return largest;
-}
 
 std::unique_ptr<FrameSource> scene(const RunOptions& options, const MachineConfig& config) {
   SceneConfig scene_config = options.scene;
@@ -37,7 +32,13 @@ std::unique_ptr<FrameSource> scene(const RunOptions& options, const MachineConfi
       throw UserError(fmt::format("--size: '{}' is not a size such as 640x480", excerpt(options.size)));
     }
   }
-  const ImageLimits most = limits(config);
+  const ImageLimits most = largest_images(config);
+  // The tiles say with their arithmetic why a scene is too wide for them.
+  if (config.image.max_width == 0) {
+    plan_tiles(config.tiles, config.matching.range(),
+               padded_size({scene_config.width, 1}, config.image.granularity()).width,
+               config.timing.pixels_per_token);
+  }
   if (scene_config.width > most.width || scene_config.height > most.height) {
     throw UserError(
         fmt::format("the built-in scene would be {}x{}, larger than the largest size {}x{} (image.max_width, "
@@ -105,6 +106,15 @@ void check_report(const RunOptions& options) {
 
 }  // namespace
 
+ImageLimits largest_images(const MachineConfig& config) {
+  ImageLimits largest;
+  largest.width = config.image.max_width != 0
+                      ? static_cast<int>(config.image.max_width)
+                      : largest_width(config.tiles, config.matching.range(), config.timing.pixels_per_token);
+  largest.height = static_cast<int>(config.image.max_height);
+  return largest;
+}
+
 void check_options(const RunOptions& options) {
   check_timing_only(options);
   check_trace(options);
@@ -153,7 +163,7 @@ std::unique_ptr<FrameSource> open_source(const RunOptions& options, const Machin
                                                        : find_image_pairs(options.input);
   pairs.resize(std::min<std::size_t>(pairs.size(), options.frames.value_or(kMostFrames)));
   ImageChoice choice;
-  choice.limits = limits(config);
+  choice.limits = largest_images(config);
   choice.bits = options.image_bits;
   choice.first_only = options.timing_only;
   auto source = file_source(std::move(pairs), choice,

@@ -44,7 +44,7 @@ void check(const PublishedRow& row) {
     throw UserError(
         fmt::format("{}: {}: {} = {} is less than the row's {} px", row.origin, row.name, key, most, wanted));
   };
-  check_side("image.max_width", config.image.max_width, row.width);
+  if (config.image.max_width != 0) check_side("image.max_width", config.image.max_width, row.width);
   check_side("image.max_height", config.image.max_height, row.height);
 }
 
