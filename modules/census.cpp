@@ -66,10 +66,10 @@ Census::Census(const CensusConfig& config, int width, int height)
   codes_.resize(width_);
 }
 
-std::int64_t Census::storage_bits() const {
+std::int64_t Census::storage_bits(int at_once) const {
   constexpr std::int64_t kPixelBits = 8;
-  return kPixelBits * ((config_.window_height - 1) * std::int64_t{width_} +
-                       config_.window_height * std::int64_t{config_.window_width});
+  const std::int64_t columns = config_.window_width + at_once - 1;
+  return kPixelBits * ((config_.window_height - 1) * std::int64_t{width_} + config_.window_height * columns);
 }
 
 Gray* Census::padded(int y) {

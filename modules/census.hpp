@@ -48,7 +48,8 @@ class Census {
   int look_ahead_pixels() const { return config_.window_width / 2; }
 
   /// window_height - 1 lines of intensities and the window itself.
-  std::int64_t storage_bits() const;
+  /// `at_once`: pixels of a row that the circuit works on in one firing, in windows side by side.
+  std::int64_t storage_bits(int at_once = 1) const;
 
  private:
   Gray* padded(int y);  ///< first pixel of image row y in the ring of lines

@@ -8,7 +8,8 @@ CensusStage::CensusStage(const sc_core::sc_module_name& name, const CensusConfig
     : Stage(name, context.clock, context.dataflow, timing.latency),
       left_(config, context.width, context.height),
       right_(config, context.width, context.height),
-      look_ahead_(look_ahead_pixels(context, left_.look_ahead_rows(), left_.look_ahead_pixels())) {
+      look_ahead_(look_ahead_tokens(context, left_.look_ahead_rows(), left_.look_ahead_pixels())),
+      storage_(left_.storage_bits(context.pixels_per_token) + right_.storage_bits(context.pixels_per_token)) {
   const std::size_t width = context.width;
   RasterSchedule raster;
   raster.reads.every = 0b11;

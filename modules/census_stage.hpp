@@ -22,12 +22,13 @@ class CensusStage final : public Stage {
               const StageContext& context);
 
   std::uint64_t look_ahead() const { return look_ahead_; }
-  Bits storage() const { return Bits(left_.storage_bits() + right_.storage_bits()); }
+  Bits storage() const { return storage_; }
 
  private:
   Census left_;
   Census right_;
   std::uint64_t look_ahead_;
+  Bits storage_;
 };
 
 }  // namespace parallax

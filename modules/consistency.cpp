@@ -44,11 +44,11 @@ Consistency::Consistency(const ConsistencyConfig& config, DisparityRange range, 
   config_.validate();
 }
 
-std::int64_t Consistency::storage_bits() const {
+std::int64_t Consistency::storage_bits(int at_once) const {
   if (!config_.enabled) return 0;
   constexpr std::int64_t kRightPixelBits = 16 + 8;  // cost and disparity
   constexpr std::int64_t kDisparityBits = 12;
-  return kRightPixelBits * range_.count + kDisparityBits * look_ahead_pixels();
+  return at_once * (kRightPixelBits * range_.count + kDisparityBits * look_ahead_pixels());
 }
 
 void Consistency::match_right(const Cost* costs) {

@@ -48,7 +48,8 @@ class Consistency {
   int look_ahead_pixels() const { return config_.enabled ? range_.count - 1 : 0; }
 
   /// Lowest cost and disparity of the right pixels in sight, and the disparities that wait for them.
-  std::int64_t storage_bits() const;
+  /// `at_once`: pixels, of as many rows, that the circuit works on in one firing.
+  std::int64_t storage_bits(int at_once = 1) const;
 
  private:
   void match_right(const Cost* costs);

@@ -16,8 +16,9 @@
 namespace parallax {
 
 /// A check of disparities against their costs: the cost groups of a pixel and, with the last one, its
-/// disparity in; the disparity out, as much later as the kernel looks ahead. Interval (a group) and latency
-/// are configured; storage is the kernel's.
+/// disparity in; the disparity out, as much later as the kernel looks ahead. With several pixels a token, or
+/// parallel rows in the matcher, it is the groups of a token and its disparities (CostGroups). Interval (a
+/// group) and latency are configured; storage is the kernel's.
 template <class Kernel, class Config>
 class CostCheckStage final : public Stage {
  public:
@@ -25,9 +26,8 @@ class CostCheckStage final : public Stage {
   StreamIn<Disparity> in_disparity{"in_disparity"};
   StreamOut<Disparity> out_disparity{"out_disparity"};
 
-  /// `groups`: cost tokens a pixel.
   CostCheckStage(const sc_core::sc_module_name& name, const Config& config, DisparityRange range,
-                 std::uint32_t groups, const StageTiming& timing, const StageContext& context)
+                 const CostGroups& groups, const StageTiming& timing, const StageContext& context)
       : Stage(name, context.clock, context.dataflow, timing.latency),
         kernel_(std::in_place, config, range, context.width, context.height),
         changes_(context.height),
@@ -40,11 +40,12 @@ class CostCheckStage final : public Stage {
                 kernel_->push(costs, disparities,
                               [this, width](const Disparity* out) { out_disparity.send_row(out, width); });
               }),
-        look_ahead_(look_ahead_pixels(context, kernel_->look_ahead_rows(), kernel_->look_ahead_pixels())),
-        storage_(kernel_->storage_bits()) {
+        look_ahead_(look_ahead_tokens(context, kernel_->look_ahead_rows(),
+                                      groups.rows * kernel_->look_ahead_pixels())),
+        storage_(kernel_->storage_bits(groups.rows)) {
     const std::size_t width = context.width;
     RasterSchedule raster;
-    raster.groups = groups;
+    raster.groups = groups.of_token;
     raster.reads.every = 0b01;
     raster.reads.last = 0b10;
     raster.writes.last = 0b1;

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <systemc>
+#include <type_traits>
 #include <utility>
 
 #include "modules/frame_changes.hpp"
@@ -18,13 +19,34 @@ class FilterStage : public Stage {
   StreamIn<Disparity> in_disparity{"in_disparity"};
   StreamOut<Disparity> out_disparity{"out_disparity"};
 
-  /// Pixels read beyond the one written.
+  /// Tokens read beyond the one written.
   virtual std::uint64_t look_ahead() const = 0;
   virtual Bits storage() const = 0;
 
  protected:
   using Stage::Stage;
 };
+
+namespace detail {
+
+template <class Kernel, class = void>
+struct TellsPixelsAtOnce : std::false_type {};
+template <class Kernel>
+struct TellsPixelsAtOnce<Kernel, std::void_t<decltype(std::declval<const Kernel&>().storage_bits(1))>>
+    : std::true_type {};
+
+}  // namespace detail
+
+/// What a kernel stores in a circuit that works on `at_once` pixels of a row at once; a kernel whose
+/// storage_bits() takes no such number stores the same for any.
+template <class Kernel>
+Bits storage_of(const Kernel& kernel, int at_once) {
+  if constexpr (detail::TellsPixelsAtOnce<Kernel>::value) {
+    return Bits(kernel.storage_bits(at_once));
+  } else {
+    return Bits(kernel.storage_bits());
+  }
+}
 
 /// A filter by its kernel: each disparity comes out as much later as the kernel looks ahead. Interval and
 /// latency are configured; storage is the kernel's.
@@ -36,8 +58,8 @@ class DisparityFilterStage final : public FilterStage {
       : FilterStage(name, context.clock, context.dataflow, timing.latency),
         kernel_(std::in_place, config, context.width, context.height),
         changes_(context.height),
-        look_ahead_(look_ahead_pixels(context, kernel_->look_ahead_rows(), kernel_->look_ahead_pixels())),
-        storage_(kernel_->storage_bits()) {
+        look_ahead_(look_ahead_tokens(context, kernel_->look_ahead_rows(), kernel_->look_ahead_pixels())),
+        storage_(storage_of(*kernel_, context.pixels_per_token)) {
     const std::size_t width = context.width;
     RasterSchedule raster;
     raster.reads.every = 0b1;

@@ -104,7 +104,7 @@ int GapInterpolation::look_ahead_rows() const { return config_.enabled ? config_
 
 int GapInterpolation::look_ahead_pixels() const { return 0; }
 
-std::int64_t GapInterpolation::storage_bits() const {
+std::int64_t GapInterpolation::storage_bits(int at_once) const {
   if (!config_.enabled) return 0;
   constexpr int kDisparityBits = 12;
   // A row is held until l_max more have come, with a bit per pixel for a masked border; each column also
@@ -113,7 +113,7 @@ std::int64_t GapInterpolation::storage_bits() const {
   while ((1 << position_bits) <= config_.l_max + 1) ++position_bits;
   const std::int64_t line_buffers = std::int64_t{config_.l_max} * width_ * (kDisparityBits + 1);
   const std::int64_t columns = std::int64_t{width_} * (kDisparityBits + position_bits);
-  const std::int64_t window = std::int64_t{config_.l_max + 1} * (kDisparityBits + 1);
+  const std::int64_t window = std::int64_t{config_.l_max + at_once} * (kDisparityBits + 1);
   return line_buffers + columns + window;
 }
 

@@ -4,7 +4,7 @@
 namespace parallax {
 namespace {
 
-Schedule map_schedule(const EncodedMap& map, Bytes word, const StageTiming& timing) {
+Schedule map_schedule(const EncodedMap& map, Bytes word, int pairs, const StageTiming& timing) {
   MapDecoder decoder(map.range, map.width, map.height);
   std::vector<OffsetPair> row(map.width);
   std::vector<std::uint32_t> end_bit(row.size());
@@ -15,8 +15,8 @@ Schedule map_schedule(const EncodedMap& map, Bytes word, const StageTiming& timi
   std::uint64_t row_start = 0;  // byte of the frame's stream
   for (int y = 0; y < map.height; ++y) {
     decoder.push(map.bytes.data() + row_start, map.bytes.size() - row_start, row.data(), end_bit.data());
-    for (const std::uint32_t end : end_bit) {
-      const std::uint64_t needed = row_start * 8 + end;
+    for (std::size_t last = pairs - 1; last < end_bit.size(); last += pairs) {
+      const std::uint64_t needed = row_start * 8 + end_bit[last];
       while (read_bits + word_bits < needed) {
         firings.add(firing.reads(0b1));
         read_bits += word_bits;
@@ -44,7 +44,7 @@ MapDecoderStage::MapDecoderStage(const sc_core::sc_module_name& name, const Enco
     : Stage(name, context.clock, context.dataflow, timing.latency),
       kernel_(map.range, map.width, map.height),
       row_(map.width) {
-  set_schedule(map_schedule(map, word, timing));
+  set_schedule(map_schedule(map, word, context.pixels_per_token, timing));
   in_words.on_row(0, [this](const std::uint8_t* bytes, std::size_t size) {
     kernel_.push(bytes, size, row_.data());
     out_map.send_row(row_.data(), row_.size());

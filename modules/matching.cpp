@@ -23,6 +23,9 @@ constexpr int kMaxDisparities = 256;
 constexpr int kMaxPenalty = 255;
 constexpr int kCodePiece = 32;     // bits of a code that are packed at once
 constexpr int kMaxCostWeight = 4;  // a weighted cost of 63 bits fits in a byte
+constexpr int kMostParallelRows = 64;
+constexpr int kRowLag = 2;  // columns that a row is behind the one above
+constexpr int kDisparityBits = 12;
 
 int path_count(unsigned paths) {
   int count = 0;
@@ -62,6 +65,7 @@ std::vector<Path> make_paths(const MatchingConfig& config, int width, bool turne
 
 void MatchingConfig::validate() const {
   require_range("matching.parallelism", parallelism, 1, kMaxDisparities);
+  require_range("matching.parallel_rows", parallel_rows, 1, kMostParallelRows);
   require_range("matching.iterations", iterations, 1, kMaxDisparities);
   require_range("matching.disparity_offset", disparity_offset, 0, kMaxDisparities - 1);
   if (disparity_offset + iterations * parallelism > kMaxDisparities) {
@@ -79,6 +83,22 @@ void MatchingConfig::validate() const {
   if (paths == 0 || paths > kEightPaths) {
     throw UserError(
         fmt::format("matching.paths = {:#x}: must name one to eight of w, nw, n, ne, e, sw, s, se", paths));
+  }
+}
+
+void MatchingConfig::validate_tokens(int pixels) const {
+  const bool whole = pixels % parallel_rows == 0 || parallel_rows % pixels == 0;
+  if (!whole || pixels * iterations % parallel_rows != 0) {
+    throw UserError(fmt::format(
+        "matching.parallel_rows = {}: must be a multiple or a divisor of pipeline.pixels_per_token = {}, "
+        "and divide pipeline.pixels_per_token * matching.iterations = {}",
+        parallel_rows, pixels, pixels * iterations));
+  }
+  if (parallel_rows > 1 && path_storage == PathStorage::kMemory) {
+    throw UserError(fmt::format(
+        "matching.parallel_rows = {}: needs matching.path_storage = \"on_chip\", costs of rows at once "
+        "do not pass the memory",
+        parallel_rows));
   }
 }
 
@@ -223,12 +243,14 @@ int summed_cost_bits(const MatchingConfig& config, int code_bits) {
   return bits_for(path_count(config.paths) * (config.cost_weight * code_bits + kMaxPenalty));
 }
 
-int Matching::look_ahead_rows() const { return one_pass() ? 0 : height_ - 1; }
+// With parallel rows the last one of them has to come in before the first column is worked on, and its last
+// pixel goes out as many rows after that of the first.
+int Matching::look_ahead_rows() const { return one_pass() ? 2 * (config_.parallel_rows - 1) : height_ - 1; }
 
 // A second pass begins when the first one is over.
 int Matching::look_ahead_pixels() const {
   if (!one_pass()) return width_;
-  return config_.paths & kPathE ? width_ - 1 : 0;
+  return kRowLag * (config_.parallel_rows - 1) + (config_.paths & kPathE ? width_ - 1 : 0);
 }
 
 std::int64_t Matching::path_pixel_bits() const {
@@ -239,7 +261,9 @@ std::int64_t Matching::storage_bits() const {
   const std::int64_t width = width_;
   const int count = config_.range().count;
   const auto in_row = [this](unsigned paths) { return path_count(config_.paths & paths); };
-  std::int64_t pixels = path_count(config_.paths & (kPathW | kPathE));
+  const std::int64_t at_once = config_.parallel_rows;
+  std::int64_t pixels = at_once * path_count(config_.paths & (kPathW | kPathE));
+  pixels += (at_once - 1) * kRowLag * std::max(in_row(kPathNW | kPathN | kPathNE), in_row(kSouthernPaths));
   if (config_.path_storage == PathStorage::kOnChip) {
     // The second pass runs after the first one: both share the lines.
     pixels += width * std::max(in_row(kPathNW | kPathN | kPathNE), in_row(kSouthernPaths));
@@ -248,9 +272,10 @@ std::int64_t Matching::storage_bits() const {
     pixels += std::max(in_row(kPathN) + 2 * in_row(kPathNW), in_row(kPathS) + 2 * in_row(kPathSE));
   }
   std::int64_t bits = path_pixel_bits() * pixels;
-  bits += std::int64_t{code_bits_} * config_.range().last();
+  bits += at_once * code_bits_ * config_.range().last();
+  bits += (at_once - 1) * width * (2 * code_bits_ + kDisparityBits);
   if (config_.paths & kPathE) {
-    bits += width * count * (bits_for(largest_cost()) + summed_cost_bits(config_, code_bits_));
+    bits += at_once * width * count * (bits_for(largest_cost()) + summed_cost_bits(config_, code_bits_));
   }
   return bits;
 }

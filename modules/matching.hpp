@@ -54,7 +54,16 @@ enum class PathStorage {
   kMemory,  ///< in external memory, written and read back row by row
 };
 
+/// When the minimum over all disparities of a pixel, m of L_r(q, .) below, is taken.
+enum class RecurrenceOrder {
+  kPlain,         ///< from the updated costs: all of them come before it
+  kMinimumFirst,  ///< before the update: m' = min(min_k(t(k) + C(k)), min_k C(k) + m + P2), t without m
+};
+
 struct MatchingConfig {
+  /// Rows that the circuit works on at once, each p comparisons wide and two columns behind the row above, as
+  /// path NE needs; 1..64. Of the stage's time and storage, not of its values; own choice.
+  int parallel_rows = 1;
   int parallelism = 32;  ///< p, comparisons per iteration, 1..256; S (paper)
   int iterations = 4;  ///< n_i per pixel, 1..256; 4 for 128 disparities, 8 for 256 (D); offset + range <= 256
   int disparity_offset = 0;  ///< o_d, px, 0..255; offset + range <= 256; S
@@ -64,16 +73,25 @@ struct MatchingConfig {
   int p1 = 8;   ///< penalty for a change of one disparity, 0..255, p1 < p2; S (device default)
   int p2 = 42;  ///< penalty for a larger change, 0..255; S (device default)
   unsigned paths = kFourPaths;  ///< set of PathBit, at least one; I: one pass over the image
-  /// Cycles from the start of a pixel's last iteration until the next pixel's first one may start, as that
-  /// needs the minimum over all disparities; 1..1000. Counts where it is more than the interval. Of the
-  /// stage's time, not of its values. 1 (D): the published rates leave room for no more.
+  /// Cycles until the minimum over all disparities of a pixel is there, which the next pixel needs; 1..1000.
+  /// Plain: from the start of the pixel's last iteration until the next pixel's first one may start; with the
+  /// minimum first, from the start of its first iteration. Of the stage's time, not of its values. 1 (D): the
+  /// published rates leave room for no more.
   int recurrence_latency = 1;
+  RecurrenceOrder recurrence_order = RecurrenceOrder::kPlain;  ///< not of the values; own choice
   PathStorage path_storage = PathStorage::kOnChip;  ///< of the stage's time, not of its values; own choice
   OutsideCost outside_cost =
       OutsideCost::kReplicate;              ///< own choice: fewest false matches at the left border
   PathStart path_start = PathStart::kCost;  ///< own choice
 
   DisparityRange range() const { return {disparity_offset, iterations * parallelism}; }
+  /// Of a token of so many pixels.
+  CostGroups groups(int pixels) const {
+    return {static_cast<std::uint32_t>(pixels * iterations / parallel_rows), parallel_rows};
+  }
+  /// Throws UserError unless tokens of so many pixels go through the circuit in whole groups of costs, and in
+  /// whole columns of its parallel rows or the other way round.
+  void validate_tokens(int pixels) const;
   void validate() const;
 };
 
@@ -125,7 +143,9 @@ class Matching {
 
   /// Path costs of one row per northern path, with their minima (of at most two pixels where rows lie in
   /// external memory); of one pixel for the horizontal path; the window of right codes; for path E, a row of
-  /// costs and of sums.
+  /// costs and of sums. With parallel rows what belongs to a pixel or a window is there for each; the path
+  /// costs of two columns lie between two rows; and the codes that wait for their row's turn are held, as are
+  /// the disparities until the rows above are out, each of all rows but one.
   std::int64_t storage_bits() const;
 
   MatchingStore store() const;

@@ -1,11 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "modules/matching_stage.hpp"
 
+#include <algorithm>
+#include <cstdint>
 #include <utility>
 
 #include "modules/area.hpp"
 
 namespace parallax {
+namespace {
+
+// Cycles from the start of a pixel's last iteration until the next pixel's first one may start, as far as the
+// recurrence decides.
+std::uint32_t last_interval(const MatchingConfig& config, std::uint32_t interval) {
+  const std::int64_t latency = config.recurrence_latency;
+  if (config.recurrence_order == RecurrenceOrder::kPlain) return static_cast<std::uint32_t>(latency);
+  const std::int64_t before = std::int64_t{interval} * (config.iterations - 1);  // those before the last one
+  return static_cast<std::uint32_t>(std::max<std::int64_t>(latency - before, 1));
+}
+
+}  // namespace
 
 MatchingStage::MatchingStage(const sc_core::sc_module_name& name, const MatchingConfig& config, int code_bits,
                              const StageTiming& timing, const StageContext& context)
@@ -22,14 +36,15 @@ MatchingStage::MatchingStage(const sc_core::sc_module_name& name, const Matching
                    left, right, [this, length](const Cost* costs) { out_costs.send_row(costs, length); },
                    keeper_);
              }),
-      look_ahead_(look_ahead_pixels(context, kernel_->look_ahead_rows(), kernel_->look_ahead_pixels())),
+      look_ahead_(look_ahead_tokens(context, kernel_->look_ahead_rows(), kernel_->look_ahead_pixels())),
       storage_(kernel_->storage_bits()),
       store_(kernel_->store()),
       frame_kept_(context.height) {
   const std::size_t width = context.width;
   RasterSchedule raster;
-  raster.groups = static_cast<std::uint32_t>(config.iterations);
-  raster.last_interval = static_cast<std::uint32_t>(config.recurrence_latency);
+  raster.groups = config.groups(context.pixels_per_token).of_token;
+  raster.step = static_cast<std::uint32_t>(config.iterations);
+  raster.last_interval = last_interval(config, timing.interval);
   raster.reads.first = 0b11;
   raster.writes.every = 0b1;
   PortMask in = 0b100;  // the next ones to be declared

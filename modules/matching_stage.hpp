@@ -17,8 +17,13 @@ namespace parallax {
 
 /// Semi-global matching: a pair of census codes in, n_i groups of p summed path costs out, one group an
 /// iteration (matching.hpp; paper, "Stereo Matching"). The interval is per iteration; a pixel takes
-/// max(n_i * interval, (n_i - 1) * interval + recurrence_latency) cycles. With southern paths the
-/// whole frame goes in before the first costs come out.
+/// max(n_i * interval, (n_i - 1) * interval + recurrence_latency) cycles, and max(n_i * interval,
+/// recurrence_latency) where the minimum is taken before the update (RecurrenceOrder). With southern paths
+/// the whole frame goes in before the first costs come out.
+///
+/// Several pixels a token are worked on one after the other, those of parallel rows at once: then a token of
+/// costs is a group of each row, and dates are those of a raster order, as rows that wait for their turn, and
+/// for the rows above to be out, make it (MatchingConfig).
 ///
 /// What the matcher keeps outside (MatchingStore) leaves and comes back through ports of its own, a token a
 /// pixel: rows out with a pixel's last iteration, and back with the first one of the pixel below; the frame

@@ -51,7 +51,8 @@ class NoiseReduction {
 
   int look_ahead_rows() const;
   int look_ahead_pixels() const;
-  std::int64_t storage_bits() const;
+  /// `at_once`: pixels of a row that the circuit works on in one firing, in windows side by side.
+  std::int64_t storage_bits(int at_once = 1) const;
 
  private:
   void mean_row(int y, Disparity* out);

@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "modules/output_packing_stage.hpp"
 
+#include <algorithm>
+
 namespace parallax {
 namespace {
 
-// The firings of pixels, one after the other.
-class PixelFirings {
+// The firings of tokens, one after the other.
+class TokenFirings {
  public:
-  explicit PixelFirings(Bytes burst) : burst_(burst.count()) {}
+  explicit TokenFirings(Bytes burst) : burst_(burst.count()) {}
 
-  void drop(int pixels) { quiet_ += pixels; }
-  // A pixel after which the piece has `bytes` bytes; `last`: it ends there.
+  void drop() { ++quiet_; }
+  // A token after which the piece has `bytes` bytes; `last`: it ends there.
   void pack(std::uint64_t bytes, bool last) {
     const std::uint64_t complete = last ? (bytes + burst_ - 1) / burst_ : bytes / burst_;
     if (complete == bursts_) {
@@ -18,7 +20,7 @@ class PixelFirings {
     } else {
       add_quiet();
       firings_.add(fires().reads(0b11).writes(0b1));
-      // A burst smaller than a pixel pair leaves in a cycle of its own.
+      // A token that completes several bursts takes a cycle more for each further one.
       if (complete > bursts_ + 1) firings_.add(fires(complete - bursts_ - 1).writes(0b1));
     }
     bursts_ = last ? 0 : complete;
@@ -36,7 +38,7 @@ class PixelFirings {
 
   const std::uint64_t burst_;
   std::uint64_t bursts_ = 0;  // complete, of the piece
-  std::uint64_t quiet_ = 0;   // pixels since the last one that completed a burst
+  std::uint64_t quiet_ = 0;   // tokens since the last one that completed a burst
   Firings firings_;
 };
 
@@ -46,19 +48,24 @@ bool whole(const OutputPackingConfig& config, const StageContext& context) {
 
 Schedule packing_schedule(const OutputPackingConfig& config, const StageContext& context) {
   const bool one_piece = whole(config, context);
-  PixelFirings firings(config.burst);
+  TokenFirings firings(config.burst);
   for (const PackedColumns& columns : config.passes) {
     const int width = columns.end - columns.begin;
+    const std::uint64_t row_bytes = OutputPacking::row_bytes(width, config.left);
     for (int y = 0; y < context.height; ++y) {
-      firings.drop(columns.begin);
-      const std::uint64_t before = one_piece ? y * OutputPacking::row_bytes(width, config.left) : 0;
-      for (int x = 1; x <= width; ++x) {
-        const bool last = x == width && (!one_piece || y + 1 == context.height);
-        const std::uint64_t bytes = x == width ? OutputPacking::row_bytes(width, config.left)
-                                               : x / 2 * OutputPacking::pair_bytes(config.left);
+      const std::uint64_t before = one_piece ? y * row_bytes : 0;
+      for (int end = context.pixels_per_token; end <= context.width; end += context.pixels_per_token) {
+        // Columns that go out, up to the end of this token.
+        const int packed = std::clamp(end - columns.begin, 0, width);
+        if (packed == 0 || end - columns.end >= context.pixels_per_token) {
+          firings.drop();
+          continue;
+        }
+        const bool last = packed == width && (!one_piece || y + 1 == context.height);
+        const std::uint64_t bytes =
+            packed == width ? row_bytes : packed / 2 * OutputPacking::pair_bytes(config.left);
         firings.pack(before + bytes, last);
       }
-      firings.drop(context.width - columns.end);
     }
   }
   return firings.schedule();

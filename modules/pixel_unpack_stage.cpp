@@ -7,12 +7,12 @@
 namespace parallax {
 namespace {
 
-// The firings for `bytes` bytes, beginning with a burst and a pixel.
+// The firings for `bytes` bytes, beginning with a burst and a token of so many bits.
 std::vector<Phase> cut(std::uint64_t bytes, std::uint64_t burst, std::uint64_t bits) {
   Firings firings;
   std::uint64_t bursts = 0;
-  for (std::uint64_t pixel = 0; pixel < bytes * 8 / bits; ++pixel) {
-    const std::uint64_t last_byte = ((pixel + 1) * bits + 7) / 8 - 1;
+  for (std::uint64_t token = 0; token < bytes * 8 / bits; ++token) {
+    const std::uint64_t last_byte = ((token + 1) * bits + 7) / 8 - 1;
     const std::uint64_t needed = last_byte / burst + 1;
     for (; bursts + 1 < needed; ++bursts) firings.add(fires().reads(0b1));
     firings.add(fires().reads(bursts < needed ? 0b1 : 0).writes(0b1));
@@ -27,9 +27,9 @@ PixelUnpackStage::PixelUnpackStage(const sc_core::sc_module_name& name, const Pi
                                    const ClockDomain& clock, Dataflow& dataflow)
     : Stage(name, clock, dataflow, 0) {
   const std::uint64_t burst = config.burst.count();
-  const std::uint64_t bits = bits_per_pixel(config.format);
+  const std::uint64_t bits = config.pixels * bits_per_pixel(config.format);
   const std::uint64_t period =
-      std::lcm(burst * 8, bits) / 8;  // bytes until bursts and pixels begin together again
+      std::lcm(burst * 8, bits) / 8;  // bytes until bursts and tokens begin together again
   Schedule schedule;
   for (std::uint64_t piece = 0; piece < config.pieces; ++piece) {
     schedule.repeat(config.piece_bytes / period, cut(period, burst, bits));

@@ -15,6 +15,7 @@ struct PixelUnpackConfig {
   std::uint64_t pieces = 1;       ///< of a frame
   Bytes burst{128};               ///< an input token; the last one of a piece may be shorter
   std::size_t width = 0;          ///< px of a row
+  std::uint64_t pixels = 1;       ///< of an output token; divides `width`
 };
 
 /// Bursts of an image in, grey pixels out, one a cycle (pixel_format.hpp; paper, section Architecture: pixels

@@ -17,7 +17,7 @@ RectificationStage::RectificationStage(const sc_core::sc_module_name& name, cons
                 waiting_.emplace_back(right, right + width);
                 push_waiting_images();
               }),
-      look_ahead_(look_ahead_pixels(context, kernel_.look_ahead_rows(), kernel_.look_ahead_pixels())) {
+      look_ahead_(look_ahead_tokens(context, kernel_.look_ahead_rows(), kernel_.look_ahead_pixels())) {
   const std::size_t width = context.width;
   RasterSchedule raster;
   raster.reads.every = 0b011;

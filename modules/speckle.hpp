@@ -42,7 +42,8 @@ class Speckle {
 
   int look_ahead_rows() const;
   int look_ahead_pixels() const;
-  std::int64_t storage_bits() const;
+  /// `at_once`: pixels of a row that the circuit works on in one firing, in windows side by side.
+  std::int64_t storage_bits(int at_once = 1) const;
 
  private:
   /// One pass over the image, itself a row kernel.

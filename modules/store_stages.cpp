@@ -31,9 +31,9 @@ std::vector<Phase> pack_row(const StoreLayout& layout, const StoreLayout::Pass& 
   const std::uint64_t per_burst = words_per_burst(layout);
   Firings firings;
   std::uint64_t packed = 0;  // words
-  for (std::uint64_t pixel = 1; pixel <= layout.width; ++pixel) {
+  for (std::uint64_t token = 1; token <= layout.width; ++token) {
     const std::uint64_t complete =
-        pixel == layout.width ? layout.row_bursts(pass) * per_burst : pixel * pass.record_bytes / word;
+        token == layout.width ? layout.row_bursts(pass) * per_burst : token * pass.record_bytes / word;
     bool first = true;
     do {
       const bool packs = packed < complete;
@@ -52,8 +52,8 @@ std::vector<Phase> unpack_row(const StoreLayout& layout, const StoreLayout::Pass
   const std::uint64_t padding = backwards ? layout.row_bytes(pass) - bytes : 0;
   Firings firings;
   std::uint64_t taken = 0;  // words
-  for (std::uint64_t pixel = 1; pixel <= layout.width; ++pixel) {
-    const std::uint64_t needed = words_until(layout, padding + pixel * pass.record_bytes);
+  for (std::uint64_t token = 1; token <= layout.width; ++token) {
+    const std::uint64_t needed = words_until(layout, padding + token * pass.record_bytes);
     do {
       const bool takes = taken < needed;
       if (takes) ++taken;

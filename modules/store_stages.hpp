@@ -9,14 +9,14 @@
 
 namespace parallax {
 
-/// How records, one a pixel, lie in a store in external memory: a row's one after the other, each row padded
-/// to whole bursts.
+/// How records, one a token of pixels, lie in a store in external memory: a row's one after the other, each
+/// row padded to whole bursts.
 struct StoreLayout {
   struct Pass {
     std::uint64_t rows = 0;
-    std::uint64_t record_bytes = 0;  ///< of a pixel
+    std::uint64_t record_bytes = 0;  ///< of a token
   };
-  std::uint64_t width = 0;   ///< pixels of a row
+  std::uint64_t width = 0;   ///< tokens of a row
   std::vector<Pass> passes;  ///< of one frame, one after the other
   Bytes word{8};             ///< width of the engine's stream side
   Bytes burst{128};          ///< whole words
@@ -40,8 +40,8 @@ class StorePackStage final : public Stage {
 };
 
 /// Bursts in, records out, likewise: a burst is read with its first word. `backwards`: rows come from their
-/// end, the padding first. Values come in by bursts and go out by rows, pixels in the order in which they
-/// were packed.
+/// end, the padding first. Values come in by bursts and go out by rows, in the order in which they were
+/// packed.
 class StoreUnpackStage final : public Stage {
  public:
   StreamIn<std::uint8_t> in_bursts{"in_bursts"};

@@ -52,10 +52,10 @@ Subpixel::Subpixel(const SubpixelConfig& config, DisparityRange range, int width
   config_.validate();
 }
 
-std::int64_t Subpixel::storage_bits() const {
+std::int64_t Subpixel::storage_bits(int at_once) const {
   constexpr std::int64_t kCostBits = 16;
   constexpr std::int64_t kIndexBits = 8;
-  return 4 * kCostBits + kIndexBits;
+  return at_once * (4 * kCostBits + kIndexBits);
 }
 
 void Subpixel::push(const Cost* costs, const RowSink<Disparity>& emit) {

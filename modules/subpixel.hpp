@@ -55,7 +55,8 @@ class Subpixel {
   int look_ahead_pixels() const { return 0; }
 
   /// Best cost so far, its index and both its neighbours, the previous cost: one pixel in the making.
-  std::int64_t storage_bits() const;
+  /// `at_once`: pixels, of as many rows, that the circuit works on in one firing.
+  std::int64_t storage_bits(int at_once = 1) const;
 
  private:
   Disparity refine(const Cost* costs) const;

@@ -6,15 +6,15 @@
 namespace parallax {
 
 SubpixelStage::SubpixelStage(const sc_core::sc_module_name& name, const SubpixelConfig& config,
-                             DisparityRange range, std::uint32_t groups, const StageTiming& timing,
+                             DisparityRange range, const CostGroups& groups, const StageTiming& timing,
                              const StageContext& context)
     : Stage(name, context.clock, context.dataflow, timing.latency),
       kernel_(std::in_place, config, range, context.width, context.height),
       changes_(context.height),
-      storage_(kernel_->storage_bits()) {
+      storage_(kernel_->storage_bits(groups.rows)) {
   const std::size_t width = context.width;
   RasterSchedule raster;
-  raster.groups = groups;
+  raster.groups = groups.of_token;
   raster.reads.every = 0b1;
   raster.writes.last = 0b1;
   raster.timing = timing;

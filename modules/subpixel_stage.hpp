@@ -18,9 +18,8 @@ class SubpixelStage final : public Stage {
   StreamIn<Cost> in_costs{"in_costs"};  ///< a token is one group of costs
   StreamOut<Disparity> out_disparity{"out_disparity"};
 
-  /// `groups`: cost tokens a pixel.
   SubpixelStage(const sc_core::sc_module_name& name, const SubpixelConfig& config, DisparityRange range,
-                std::uint32_t groups, const StageTiming& timing, const StageContext& context);
+                const CostGroups& groups, const StageTiming& timing, const StageContext& context);
 
   /// The configuration for the next frame that has none yet, or none: as before. What fixes the schedule
   /// must not change.

@@ -84,12 +84,13 @@ int Texture::look_ahead_rows() const { return config_.enabled ? half_ : 0; }
 
 int Texture::look_ahead_pixels() const { return config_.enabled ? half_ : 0; }
 
-std::int64_t Texture::storage_bits() const {
+std::int64_t Texture::storage_bits(int at_once) const {
   if (!config_.enabled) return 0;
   const std::int64_t line_buffers = std::int64_t{2} * half_ * width_ * 8;
-  // One column of pixels, the previous pixel of each, and the column sums (15 * 255 < 2^12) of the sliding
-  // window.
-  const std::int64_t registers = std::int64_t{2} * config_.window * 8 + std::int64_t{config_.window} * 12;
+  // The columns of pixels that come in, the previous pixel of each row, and the column sums (15 * 255 < 2^12)
+  // of the sliding window.
+  const std::int64_t registers =
+      std::int64_t{1 + at_once} * config_.window * 8 + std::int64_t{config_.window + at_once - 1} * 12;
   return line_buffers + registers;
 }
 

@@ -54,7 +54,8 @@ class Texture {
   int look_ahead_rows() const;
   int look_ahead_pixels() const;
   /// Line buffers of the image, column sums and window registers; a waiting disparity is in its stream.
-  std::int64_t storage_bits() const;
+  /// `at_once`: pixels of a row that the circuit works on in one firing, in windows side by side.
+  std::int64_t storage_bits(int at_once = 1) const;
 
  private:
   using Plain = std::vector<std::uint8_t>;  ///< one row: 1 where the texture is too weak

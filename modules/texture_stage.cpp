@@ -8,7 +8,8 @@ TextureStage::TextureStage(const sc_core::sc_module_name& name, const TextureCon
     : Stage(name, context.clock, context.dataflow, timing.latency),
       kernel_(config, context.width, context.height),
       changes_(context.height),
-      look_ahead_(look_ahead_pixels(context, kernel_.look_ahead_rows(), kernel_.look_ahead_pixels())) {
+      look_ahead_(look_ahead_tokens(context, kernel_.look_ahead_rows(), kernel_.look_ahead_pixels())),
+      storage_(kernel_.storage_bits(context.pixels_per_token)) {
   const std::size_t width = context.width;
   RasterSchedule raster;
   raster.reads.every = 0b01;

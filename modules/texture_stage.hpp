@@ -27,12 +27,13 @@ class TextureStage final : public Stage {
   void configure(const std::optional<TextureConfig>& config) { changes_.push(config); }
   /// Into the image; disparities are not looked ahead to.
   std::uint64_t look_ahead() const { return look_ahead_; }
-  Bits storage() const { return Bits(kernel_.storage_bits()); }
+  Bits storage() const { return storage_; }
 
  private:
   Texture kernel_;
   FrameChanges<TextureConfig> changes_;  // by the image, which comes first
   std::uint64_t look_ahead_;
+  Bits storage_;
 };
 
 }  // namespace parallax

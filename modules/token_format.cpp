@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <stdexcept>
+#include <string>
 
 namespace parallax {
 namespace {
@@ -27,6 +28,17 @@ TokenFormat& TokenFormat::field(const std::string& name, std::size_t width, bool
 TokenFormat& TokenFormat::fields(const std::string& name, std::size_t number, std::size_t width) {
   for (std::size_t i = 0; i < number; ++i) field(fmt::format("{}_{}", name, i), width);
   return *this;
+}
+
+TokenFormat TokenFormat::several(std::size_t number) const {
+  if (number == 1) return *this;
+  TokenFormat all;
+  for (std::size_t i = 0; i < number; ++i) {
+    for (const TokenField& one : fields_) {
+      all.field(one.name + "_" + std::to_string(i), one.width, one.is_signed);
+    }
+  }
+  return all;
 }
 
 std::int64_t TokenFormat::get(const BitVector& bus, std::size_t index) const {

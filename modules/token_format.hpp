@@ -27,6 +27,9 @@ class TokenFormat {
   /// Appends `number` fields name_0, name_1, ... of the same width.
   TokenFormat& fields(const std::string& name, std::size_t number, std::size_t width);
 
+  /// So many of these side by side: the fields of number i are called name_i; one is as it is.
+  TokenFormat several(std::size_t number) const;
+
   const std::vector<TokenField>& all() const { return fields_; }
   /// Bits of a token.
   Bits width() const { return Bits(bits_); }

@@ -28,11 +28,11 @@ Uniqueness::Uniqueness(const UniquenessConfig& config, DisparityRange range, int
   config_.validate();
 }
 
-std::int64_t Uniqueness::storage_bits() const {
+std::int64_t Uniqueness::storage_bits(int at_once) const {
   if (!config_.enabled) return 0;
   constexpr std::int64_t kCostBits = 16;
   constexpr std::int64_t kIndexBits = 8;
-  return (config_.neighbours_are_rivals ? 2 : 4) * (kCostBits + kIndexBits);
+  return at_once * (config_.neighbours_are_rivals ? 2 : 4) * (kCostBits + kIndexBits);
 }
 
 bool Uniqueness::unique(const Cost* costs, int k) const {

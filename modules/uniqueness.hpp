@@ -41,7 +41,8 @@ class Uniqueness {
 
   /// The lowest four costs with their indices: whatever the minimum turns out to be, its two neighbours can
   /// be left out and a rival remains.
-  std::int64_t storage_bits() const;
+  /// `at_once`: pixels, of as many rows, that the circuit works on in one firing.
+  std::int64_t storage_bits(int at_once = 1) const;
 
  private:
   bool unique(const Cost* costs, int k) const;

@@ -8,6 +8,13 @@
 
 namespace parallax {
 
+/// How the costs of a token of pixels lie in tokens of costs. A pixel's costs are n_i groups of p; a circuit
+/// that works on several rows at once has a group of each of them in a token.
+struct CostGroups {
+  std::uint32_t of_token = 1;  ///< tokens of costs for one of pixels
+  int rows = 1;                ///< groups in a token of costs
+};
+
 /// The searched disparities: offset, offset + 1, ... offset + count - 1 (px). A row of costs holds `count`
 /// values a pixel, pixel by pixel; value k belongs to the disparity offset + k.
 struct DisparityRange {

@@ -179,11 +179,14 @@ class Search {
     return found;
   }
 
-  // The full streams of the circle in which the graph is stuck at last, or nothing when it gets through.
+  // The full FIFOs of the circle in which the graph is stuck at last, or nothing when it gets through.
   // (What has stopped without a circle has no more input.)
   std::optional<std::vector<std::size_t>> go_on(CountSimulation& graph) const {
     if (graph.run(frames_)) return std::nullopt;
-    return circle(graph.needs());
+    std::optional<std::vector<std::size_t>> full = circle(graph.needs());
+    const auto inside = [this](std::size_t stream) { return part_.streams[stream]->inside_stage(); };
+    if (full) full->erase(std::remove_if(full->begin(), full->end(), inside), full->end());
+    return full;
   }
 
   // The smallest depth of one stream that frees a stuck graph, if there is one. More room undoes nothing that

@@ -91,4 +91,17 @@ class Schedule {
   std::vector<Phase> phases_;
 };
 
+/// How a stage fires: by one schedule, or in two sides, each by a schedule of its own (Stage), so that a
+/// frame can come in while the one before goes out.
+struct StageSchedule {
+  /// Ports, beside those of the stage, by which the sides are joined: the reading side writes them, the
+  /// writing side reads them.
+  static constexpr unsigned kHandedPort = 6;  ///< what is known to be read can be written, in the same cycle
+  static constexpr unsigned kKeptPort = 7;  ///< places that the reading side takes and the writing side frees
+
+  Schedule reading;        ///< of the only side, if `writing` is empty
+  Schedule writing;        ///< of the writing side
+  std::uint32_t kept = 0;  ///< places, if there are two sides
+};
+
 }  // namespace parallax

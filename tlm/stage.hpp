@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <systemc>
 #include <utility>
 #include <vector>
@@ -39,6 +40,11 @@ struct FrameDates {
 /// write nothing take no slot in the pipeline: k counts those that write. With latency 0 reading and writing
 /// are one cycle.
 ///
+/// A stage of two sides (StageSchedule) is two such machines on the same ports: the reading side, without a
+/// pipeline, and the writing side, which has the latency; each port is used by one of them. What the reading
+/// side hands over can be read in the cycle in which it is written; a place that is freed can be taken in
+/// the same cycle. Reports have the writing side as a stage of its own, `<name>_writing`.
+///
 /// A subclass declares its ports (their order numbers the bits of PortMask), gives the schedule of one frame,
 /// and hangs its kernel on the rows of its inputs (Stream::on_row). Frames follow one another without end. A
 /// frame is once through the schedule here: who cuts an image into tiles has a stage go through one for each.
@@ -46,9 +52,13 @@ class Stage : public sc_core::sc_module, public Actor {
  public:
   static constexpr std::size_t kMaxPorts = 8;
 
+  ~Stage() override;
+
   const ClockDomain& clock() const { return clock_; }
   std::uint32_t latency() const { return latency_; }
   const Schedule& schedule() const { return schedule_; }
+  /// The other side of a stage of two, which is this one's reading side; else nullptr.
+  const Stage* writing_side() const { return writing_side_.get(); }
   /// The stage stops after so many frames; 0 = never.
   std::uint64_t frame_limit() const { return frame_limit_; }
   const StageStatistics& statistics() const {
@@ -83,6 +93,8 @@ class Stage : public sc_core::sc_module, public Actor {
 
   /// The schedule of one frame; to be called before the simulation starts.
   void set_schedule(Schedule schedule) { schedule_ = std::move(schedule); }
+  /// The same; to be called from the constructor.
+  void set_schedule(StageSchedule schedule);
 
   /// The stage stops after so many frames; 0 = never. For sources: a stage with inputs ends with its input.
   void set_frame_limit(std::uint64_t frames) { frame_limit_ = frames; }
@@ -95,6 +107,7 @@ class Stage : public sc_core::sc_module, public Actor {
   // Leap compares the whole state of a stage with that of a period before, and moves all of it on at once:
   // the pipeline, the position, the statistics. Accessors would show every member and add nothing that holds.
   friend class Leap;
+  class WritingSide;
   static constexpr std::uint64_t kStartsKept = 2 * kLeapHistory;
 
   struct Firing {  // one that writes
@@ -134,7 +147,10 @@ class Stage : public sc_core::sc_module, public Actor {
     return starts_[(statistics_.firings - 1 - before) % kStartsKept];
   }
 
-  static Ports gather(const std::vector<std::vector<StreamBase*>>& ports);
+  using StreamsOfPorts = std::vector<std::vector<StreamBase*>>;
+  void bind_ports(const StreamsOfPorts& in, const StreamsOfPorts& out);
+  void share_ports(StreamsOfPorts in, StreamsOfPorts out);
+  static Ports gather(const StreamsOfPorts& ports);
   static std::vector<const StreamBase*> at_port(const Ports& ports, unsigned port);
 
   bool fire();
@@ -172,8 +188,10 @@ class Stage : public sc_core::sc_module, public Actor {
 
   const ClockDomain& clock_;
   Dataflow& dataflow_;
-  const std::uint32_t latency_;
+  std::uint32_t latency_;
   Schedule schedule_;
+  std::unique_ptr<StreamBase> handed_, kept_;  // between two sides
+  std::unique_ptr<Stage> writing_side_;
   std::uint64_t frame_limit_ = 0;
   Ports inputs_;
   Ports outputs_;

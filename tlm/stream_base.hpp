@@ -31,6 +31,8 @@ struct FifoConfig {
   std::uint32_t synchroniser_stages = 2;  ///< registers that a pointer passes, for kind kAsynchronous; 1 to 8
   /// One end is a memory port: who waits here waits for the memory (StageStatistics::memory).
   bool at_memory = false;
+  /// It joins the two sides of a stage (Stage): no FIFO of the machine, reports leave it out.
+  bool inside_stage = false;
 };
 
 /// What happened on a stream, in tokens and in cycles of the side that waited.
@@ -123,6 +125,7 @@ class StreamBase : public sc_core::sc_prim_channel, public virtual sc_core::sc_i
   const ClockDomain& writer_clock() const { return writer_clock_; }
   const ClockDomain& reader_clock() const { return reader_clock_; }
   bool at_memory() const { return config_.at_memory; }
+  bool inside_stage() const { return config_.inside_stage; }
   const StreamStatistics& statistics() const {
     dataflow_.bring_up_to_date();
     settle();

@@ -18,6 +18,7 @@ void MachineConfig::validate() const {
   rectification.validate();
   census.validate();
   matching.validate();
+  matching.validate_tokens(timing.pixels_per_token);
   subpixel.validate();
   uniqueness.validate();
   consistency.validate();
@@ -52,7 +53,7 @@ void describe(Schema& schema, MachineConfig& config) {
   for (const auto& filter : config.filters.all()) filter->describe_function(schema, config);
   describe(schema, config.timing);
   for (const auto& filter : config.filters.all()) {
-    describe_timing(schema, filter->name(), "pixels", filter->timing(config));
+    describe_timing(schema, filter->name(), "pixels", LooksAhead::kYes, filter->timing(config));
   }
   describe(schema, config.energy);
 }

@@ -6,7 +6,7 @@
 namespace parallax {
 
 void describe_timing(Schema& schema, const std::string& stage, const std::string& token,
-                     StageTiming& timing) {
+                     LooksAhead looks_ahead, StageTiming& timing) {
   schema.integer(stage + ".interval", timing.interval, {1, 1000}, "core cycles",
                  "Initiation interval: cycles between two " + token + ".",
                  derived("paper, table 1: the published rates leave room for one a cycle only"));
@@ -17,18 +17,36 @@ void describe_timing(Schema& schema, const std::string& stage, const std::string
                  "Cycles lost between two rows.", chosen("not published"));
   schema.integer(stage + ".frame_overhead", timing.frame_overhead, {0, 1'000'000'000}, "core cycles",
                  "Cycles lost between two frames.", chosen("not published"));
+  if (looks_ahead == LooksAhead::kNo) return;
+  schema.choice(
+      stage + ".overlap_frames", timing.overlap,
+      {{"as_pipeline", FrameOverlap::kAsPipeline}, {"no", FrameOverlap::kNo}, {"yes", FrameOverlap::kYes}},
+      "Whether the next frame comes in while the last rows of the one before go out; or as "
+      "pipeline.overlap_frames says.",
+      chosen("one key for all stages"));
 }
 
 void describe(Schema& schema, PipelineTiming& timing) {
-  describe_timing(schema, "map_decoder", "map entries", timing.map_decoder);
-  describe_timing(schema, "rectification", "pixel pairs", timing.rectification);
-  describe_timing(schema, "census", "pixels", timing.census);
+  schema.integer(
+      "pipeline.pixels_per_token", timing.pixels_per_token, {1, 16}, "px",
+      "Neighbours of a row that pass each stage at once, as one token; widths must be multiples. The "
+      "matcher takes a token's pixels one after the other, unless it has matching.parallel_rows.",
+      derived("paper, table 1: one pixel passes at a time"));
+  schema.boolean(
+      "pipeline.overlap_frames", timing.overlap_frames,
+      "Whether stages that look ahead take the next frame in while the last rows of the one before go "
+      "out, so that nothing is lost between frames. What a second pass over the image needs, or path "
+      "costs in memory with path e, is emptied first all the same.",
+      chosen("not published; emptying the line buffers first is the simpler circuit"));
+  describe_timing(schema, "map_decoder", "map entries", LooksAhead::kNo, timing.map_decoder);
+  describe_timing(schema, "rectification", "pixel pairs", LooksAhead::kYes, timing.rectification);
+  describe_timing(schema, "census", "pixels", LooksAhead::kYes, timing.census);
   describe_timing(schema, "matching", "iterations; a pixel takes matching.iterations of them",
-                  timing.matching);
-  describe_timing(schema, "subpixel", "groups of costs", timing.subpixel);
-  describe_timing(schema, "uniqueness", "groups of costs", timing.uniqueness);
-  describe_timing(schema, "consistency", "groups of costs", timing.consistency);
-  describe_timing(schema, "texture", "pixels", timing.texture);
+                  LooksAhead::kYes, timing.matching);
+  describe_timing(schema, "subpixel", "groups of costs", LooksAhead::kNo, timing.subpixel);
+  describe_timing(schema, "uniqueness", "groups of costs", LooksAhead::kNo, timing.uniqueness);
+  describe_timing(schema, "consistency", "groups of costs", LooksAhead::kYes, timing.consistency);
+  describe_timing(schema, "texture", "pixels", LooksAhead::kYes, timing.texture);
 }
 
 }  // namespace parallax

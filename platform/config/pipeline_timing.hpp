@@ -26,10 +26,17 @@ struct PipelineTiming {
   StageTiming speckle{1, 6, 0, 0};
   StageTiming gap_interpolation{1, 16, 0, 0};
   StageTiming noise_reduction{1, 8, 0, 0};
+
+  bool overlap_frames = false;  ///< of stages that do not say it themselves (FrameOverlap); own choice
+  int pixels_per_token = 1;  ///< neighbours of a row that pass a stage at once, 1 to 16; D: published rates
 };
 
-/// Declares interval, latency and overheads of one stage; `token`: what it takes one of an interval.
-void describe_timing(Schema& schema, const std::string& stage, const std::string& token, StageTiming& timing);
+enum class LooksAhead { kNo, kYes };
+
+/// Declares interval, latency and overheads of one stage, and, if it looks ahead, whether its frames overlap;
+/// `token`: what it takes one of an interval.
+void describe_timing(Schema& schema, const std::string& stage, const std::string& token,
+                     LooksAhead looks_ahead, StageTiming& timing);
 
 /// The same of all stages but the filters of the disparity map, which are a list of their own.
 void describe(Schema& schema, PipelineTiming& timing);

@@ -63,6 +63,11 @@ void describe(Schema& schema, CensusConfig& config) {
 }
 
 void describe(Schema& schema, MatchingConfig& config) {
+  schema.integer(
+      "matching.parallel_rows", config.parallel_rows, {1, 64}, "rows",
+      "Rows of the image that the matcher works on at once, each with matching.parallelism comparisons "
+      "in an iteration. Rows wait for their turn in its line buffers.",
+      derived("paper, section Stereo Matching: p comparisons in parallel, of one pixel"));
   schema.integer("matching.parallelism", config.parallelism, {1, 256}, "disparities",
                  "Disparities that one iteration compares (p).",
                  stated("paper, section Stereo Matching: p = 32"));
@@ -71,11 +76,17 @@ void describe(Schema& schema, MatchingConfig& config) {
                  derived("paper, table 1: 128 disparities at p = 32"));
   schema.integer(
       "matching.recurrence_latency", config.recurrence_latency, {1, 1000}, "core cycles",
-      "Cycles from the start of a pixel's last iteration until the next pixel's first one may start, which "
-      "needs "
-      "the minimum over all disparities. A pixel takes matching.interval for each iteration, and this after "
-      "the last one if it is more.",
+      "Cycles until the minimum over all disparities of a pixel is there, which the next pixel needs: from "
+      "the start of its last iteration, or, with matching.recurrence_order = minimum_first, of its first "
+      "one.",
       derived("paper, table 1: more than one cycle would need a faster clock than such fabric has"));
+  schema.choice(
+      "matching.recurrence_order", config.recurrence_order,
+      {{"plain", RecurrenceOrder::kPlain}, {"minimum_first", RecurrenceOrder::kMinimumFirst}},
+      "When a pixel's minimum over all disparities is taken: after the update of its costs, so that a pixel "
+      "takes (iterations - 1) * interval + recurrence_latency cycles; or from what goes into the update, so "
+      "that it takes recurrence_latency; in both cases iterations * interval if that is more.",
+      chosen("not published; a recurrence_latency of 1 is hidden in either order"));
   schema.integer("matching.disparity_offset", config.disparity_offset, {0, 255}, "px",
                  "Smallest disparity (o_d); offset and range together are at most 256.",
                  stated(kDeviceSoftware));

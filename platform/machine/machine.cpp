@@ -14,7 +14,7 @@ std::unique_ptr<MemoryScheduler> memory_scheduler(const MemoryConfig& config, co
   BusTiming timing;
   timing.bytes_per_cycle = Bytes(config.bytes_per_cycle);
   timing.efficiency = config.efficiency;
-  timing.latency = Cycles(config.latency_cycles);
+  timing.latency = config.latency(clock);
   timing.arbitration = config.arbitration;
   return std::make_unique<BusScheduler>(timing, clock);
 }
@@ -36,7 +36,7 @@ Machine::Machine(const sc_core::sc_module_name& name, const MachineConfig& confi
     : sc_module(name),
       config_(config),
       input_(input),
-      tiles_(plan_tiles(config.tiles, config.matching.range(), input.width)),
+      tiles_(plan_tiles(config.tiles, config.matching.range(), input.width, config.timing.pixels_per_token)),
       tiled_map_(tiles_.tiles.size() > 1 ? cut_map(*input.map, tiles_) : EncodedMap{}),
       memory_map_(lay_out_memory(config, input.width, input.height, map(),
                                  matcher_store(config, tiles_.width, input.height))),

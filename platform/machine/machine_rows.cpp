@@ -12,7 +12,7 @@ MachineRows::MachineRows(const Machine& machine)
     : machine_(machine),
       height_(machine.input().height),
       tiles_(static_cast<std::int32_t>(machine.tiles().tiles.size())),
-      width_(machine.tiles().width) {
+      row_tokens_(machine.tiles().width / machine.config().timing.pixels_per_token) {
   if (const auto& unpack = machine.map_port().stage) map_words_ = unpack->stage->output_streams(0).front();
   for (const StageInfo& info : machine.pipeline().stages()) {
     for (unsigned port = 0; port < Stage::kMaxPorts; ++port) {
@@ -24,7 +24,7 @@ MachineRows::MachineRows(const Machine& machine)
 }
 
 void MachineRows::add(const StreamBase& stream, std::uint64_t tokens) {
-  if (stream.at_memory()) return;
+  if (stream.at_memory() || stream.inside_stage()) return;
   const std::uint64_t rows = area(height_, tiles_);
   if (&stream == map_words_) {
     // A word counts for the row that its first byte belongs to.
@@ -39,10 +39,10 @@ void MachineRows::add(const StreamBase& stream, std::uint64_t tokens) {
     streams_[&stream] = ends;
   } else if (tokens % rows == 0) {
     streams_[&stream] = std::make_shared<const RowEnds>(equal_rows(tokens / rows, height_, tiles_));
-  } else if (const std::uint64_t of_a_tile = tokens / tiles_; of_a_tile % width_ == 0) {
+  } else if (const std::uint64_t of_a_tile = tokens / tiles_; of_a_tile % row_tokens_ == 0) {
     // Records of the matcher's store, of less rows, or of the rows of two passes.
     streams_[&stream] = std::make_shared<const RowEnds>(
-        equal_rows(width_, static_cast<std::int32_t>(of_a_tile / width_), tiles_));
+        equal_rows(row_tokens_, static_cast<std::int32_t>(of_a_tile / row_tokens_), tiles_));
   }
 }
 

@@ -27,7 +27,7 @@ class MachineRows {
   const Machine& machine_;
   const std::int32_t height_;
   const std::int32_t tiles_;
-  const std::uint64_t width_;              // of a tile
+  const std::uint64_t row_tokens_;         // of a tile
   const StreamBase* map_words_ = nullptr;  // the compressed map: the one stream whose rows differ in length
   std::unordered_map<const StreamBase*, std::shared_ptr<const RowEnds>> streams_;
 };

@@ -32,14 +32,15 @@ std::uint64_t MatcherStore::frame_bytes() const {
 MatcherStore matcher_store(const MachineConfig& config, int width, int height) {
   const MatchingStore bits = Matching(config.matching, width, height, config.census.code_bits()).store();
   StoreLayout layout;
-  layout.width = width;
+  const auto pixels = static_cast<std::uint64_t>(config.timing.pixels_per_token);
+  layout.width = width / pixels;
   layout.word = Bytes(config.dma.buffer.data_bits / 8);
   layout.burst = Bytes(config.dma.buffer.burst_bytes);
   MatcherStore store{layout, layout};
   const std::uint64_t all_rows = height;
-  store.rows.passes = {{all_rows - 1, whole_bytes(bits.first_pass_row)},
-                       {all_rows - 1, whole_bytes(bits.second_pass_row)}};
-  store.frame.passes = {{all_rows, whole_bytes(bits.frame)}};
+  store.rows.passes = {{all_rows - 1, pixels * whole_bytes(bits.first_pass_row)},
+                       {all_rows - 1, pixels * whole_bytes(bits.second_pass_row)}};
+  store.frame.passes = {{all_rows, pixels * whole_bytes(bits.frame)}};
   return store;
 }
 

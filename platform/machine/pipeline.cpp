@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "platform/machine/pipeline.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <optional>
 #include <stdexcept>
@@ -29,6 +31,7 @@ PixelUnpackConfig image_bursts(const TilePlan& tiles, const StageContext& contex
   PixelUnpackConfig config;
   config.format = format;
   config.width = context.width;
+  config.pixels = context.pixels_per_token;
   config.burst = Bytes(port.burst_bytes);
   const std::uint64_t row = bytes_of(format, config.width);
   const std::uint64_t rows = context.height;
@@ -99,6 +102,12 @@ Pipeline::Pipeline(const sc_core::sc_module_name& name, const MachineConfig& con
   wiring_.build();
   results_ = &wiring_.stream<Disparity>(results);
   for (const auto& slot : wiring_.slots()) {
+    if (slot->content.stage == nullptr && context.pixels_per_token > 1) {
+      throw std::logic_error(
+          fmt::format("what stands in the slot {} works in kernel time, value by value: "
+                      "pipeline.pixels_per_token must be 1",
+                      slot->name));
+    }
     if (slot->content.follow) follow_.push_back(slot->content.follow);
   }
 }
@@ -124,17 +133,17 @@ void Pipeline::place_inputs(const EncodedMap& map, const TilePlan& tiles) {
 void Pipeline::place_matching() {
   const PipelineTiming& time = config_.timing;
   const DisparityRange range = config_.matching.range();
-  const auto groups = static_cast<std::uint32_t>(config_.matching.iterations);
+  const CostGroups groups = config_.matching.groups(context_.pixels_per_token);
   wiring_.place<CensusStage>("census", {tiles_}, config_.census, time.census, context_);
-  auto* matching = wiring_.place<MatchingStage>("matching", {tiles_, true, groups}, config_.matching,
+  auto* matching = wiring_.place<MatchingStage>("matching", {tiles_, true, groups.of_token}, config_.matching,
                                                 config_.census.code_bits(), time.matching, context_);
-  auto* subpixel = wiring_.place<SubpixelStage>("subpixel", {tiles_, true, groups}, config_.subpixel, range,
-                                                groups, time.subpixel, context_);
+  auto* subpixel = wiring_.place<SubpixelStage>("subpixel", {tiles_, true, groups.of_token}, config_.subpixel,
+                                                range, groups, time.subpixel, context_);
   auto* uniqueness =
-      wiring_.place<UniquenessStage>("uniqueness", {tiles_, config_.uniqueness.enabled, groups},
+      wiring_.place<UniquenessStage>("uniqueness", {tiles_, config_.uniqueness.enabled, groups.of_token},
                                      config_.uniqueness, range, groups, time.uniqueness, context_);
   auto* consistency =
-      wiring_.place<ConsistencyStage>("consistency", {tiles_, config_.consistency.enabled, groups},
+      wiring_.place<ConsistencyStage>("consistency", {tiles_, config_.consistency.enabled, groups.of_token},
                                       config_.consistency, range, groups, time.consistency, context_);
   follow(follow_, matching, &MachineConfig::matching);
   follow(follow_, subpixel, &MachineConfig::subpixel);
@@ -183,7 +192,8 @@ std::unique_ptr<Pipeline::Store> Pipeline::place_store(const std::string& what, 
 }
 
 void Pipeline::connect_inputs() {
-  const TokenFormat gray = gray_format();
+  const auto pixels = static_cast<std::size_t>(context_.pixels_per_token);
+  const TokenFormat gray = gray_format().several(pixels);
   wiring_.attach(left_bursts_, {"unpack_left", "in_bursts"});
   wiring_.attach(right_bursts_, {"unpack_right", "in_bursts"});
   wiring_.attach(map_bursts_, {"unpack_map", "in_bursts"});
@@ -191,7 +201,8 @@ void Pipeline::connect_inputs() {
   wiring_.connect<Gray>("right_pixels", gray, {"unpack_right", "out_tokens"}, {"rectification", "in_right"});
   wiring_.connect<std::uint8_t>("map_words", word_format(config_.dma.map.data_bits / 8),
                                 {"unpack_map", "out_tokens"}, {"map_decoder", "in_words"});
-  wiring_.connect<OffsetPair>("map_entries", offset_pair_format(config_.rectification.range.offset_bits()),
+  wiring_.connect<OffsetPair>("map_entries",
+                              offset_pair_format(config_.rectification.range.offset_bits()).several(pixels),
                               {"map_decoder", "out_map"}, {"rectification", "in_map"}, Wiring::Reads::kLate);
   wiring_.connect<Gray>("left_rectified", gray, {"rectification", "out_left"}, {"census", "in_left"});
   wiring_.connect<Gray>("right_rectified", gray, {"rectification", "out_right"}, {"census", "in_right"});
@@ -200,10 +211,12 @@ void Pipeline::connect_inputs() {
 }
 
 void Pipeline::connect_matching() {
-  const TokenFormat code = census_code_format(config_.census.code_bits());
+  const auto pixels = static_cast<std::size_t>(context_.pixels_per_token);
+  const TokenFormat code = census_code_format(config_.census.code_bits()).several(pixels);
   const TokenFormat costs = cost_group_format(config_.matching.parallelism,
-                                              summed_cost_bits(config_.matching, config_.census.code_bits()));
-  const TokenFormat disparity = disparity_format();
+                                              summed_cost_bits(config_.matching, config_.census.code_bits()))
+                                .several(config_.matching.parallel_rows);
+  const TokenFormat disparity = disparity_format().several(pixels);
   wiring_.connect<CensusCode>("left_codes", code, {"census", "out_left"}, {"matching", "in_left"});
   wiring_.connect<CensusCode>("right_codes", code, {"census", "out_right"}, {"matching", "in_right"});
   for (const char* stage : {"subpixel", "uniqueness", "consistency"}) {
@@ -220,7 +233,7 @@ void Pipeline::connect_matching() {
 
 // From one filter to the next, and to the packing; returns the name of the last stream.
 std::string Pipeline::connect_filters() {
-  const TokenFormat disparity = disparity_format();
+  const TokenFormat disparity = disparity_format().several(context_.pixels_per_token);
   PortName from{"texture", "out_disparity"};
   std::string stream = "textured";
   for (const auto& filter : config_.filters.all()) {
@@ -271,6 +284,9 @@ std::vector<StageInfo> Pipeline::stages() const {
   for (const auto& slot : wiring_.slots()) {
     if (slot->content.stage == nullptr) continue;
     all.push_back({slot->content.stage, slot->content.storage, slot->facts.passes, slot->facts.enabled});
+    if (const Stage* const writing = slot->content.stage->writing_side()) {
+      all.push_back({writing, Bits(0), slot->facts.passes, slot->facts.enabled});
+    }
   }
   return all;
 }

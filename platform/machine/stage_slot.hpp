@@ -22,8 +22,9 @@ struct MachineConfig;
 /// there ("in_left", say), and take the same tokens.
 struct SlotModule {
   std::unique_ptr<sc_core::sc_module> module;
-  const Stage* stage = nullptr;  ///< the same, if it is one; else reports leave it out
-  std::uint64_t look_ahead = 0;  ///< elements (pixels) that it has read beyond the one that it writes
+  /// The same, if it is one; else reports leave it out, and a token must be one pixel (StageContext).
+  const Stage* stage = nullptr;
+  std::uint64_t look_ahead = 0;  ///< tokens of pixels that it has read beyond the one that it writes
   std::uint64_t latency = 0;     ///< cycles of the core's clock from reading to writing
   Bits storage{0};               ///< line buffers and the like
   /// Called, if there is one, for the next frame with values: its configuration, or nullptr: as before.
@@ -59,6 +60,7 @@ SlotModule slot_module(std::unique_ptr<S> stage) {
   SlotModule slot;
   slot.stage = stage.get();
   slot.latency = stage->latency();
+  if (stage->writing_side() != nullptr) slot.latency += stage->writing_side()->latency();
   if constexpr (detail::HasLookAhead<S>::value) slot.look_ahead = stage->look_ahead();
   if constexpr (detail::HasStorage<S>::value) slot.storage = stage->storage();
   slot.module = std::move(stage);

@@ -55,7 +55,9 @@ StereoCore::StereoCore(const sc_core::sc_module_name& name, const MachineConfig&
       dma_map_("dma_map", engine_config(config.dma.map), clock),
       dma_output_("dma_output", engine_config(config.dma.output), clock),
       pipeline_("pipeline", config, input_.map, input_.tiles,
-                {clock, dataflow, input_.tiles.width, run.height}, run.replacements),
+                {clock, dataflow, input_.tiles.width, run.height, config.timing.overlap_frames,
+                 config.timing.pixels_per_token},
+                run.replacements),
       early_rows_(config.link.enabled
                       ? std::min(config.link.early_start_rows, static_cast<std::uint32_t>(run.height))
                       : 0),

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 
 #include "tlm/error.hpp"
 
@@ -16,7 +17,8 @@ struct Margins {
   int both() const { return left + right; }
 };
 
-int round_up_to_even(int value) { return (value + 1) / 2 * 2; }
+int round_up(int value, int unit) { return (value + unit - 1) / unit * unit; }
+int round_up_to_even(int value) { return round_up(value, 2); }
 
 Margins margins(const TileConfig& config, const DisparityRange& range) {
   const int disparities = config.disparities_in_margin ? range.offset + range.count : 0;
@@ -25,8 +27,9 @@ Margins margins(const TileConfig& config, const DisparityRange& range) {
 }
 
 // Columns that so many tiles of the full width contribute.
-int columns(int tiles, const TileConfig& config, const Margins& margins) {
-  const int limit = config.limit;
+int columns(int tiles, const TileConfig& config, int pixels, const Margins& margins) {
+  const int whole = std::lcm(pixels, 2);
+  const int limit = static_cast<int>(config.limit) / whole * whole;
   return tiles * limit - (tiles - 1) * margins.both();
 }
 
@@ -34,15 +37,22 @@ int columns(int tiles, const TileConfig& config, const Margins& margins) {
 
 TilePlan one_tile(int width) { return {width, {{0, 0, width}}}; }
 
-int largest_width(const TileConfig& config, const DisparityRange& range) {
+int largest_width(const TileConfig& config, const DisparityRange& range, int pixels) {
   // Further tiles of nothing but margins would add nothing.
-  return std::max(columns(1, config, {}), columns(config.largest_number, config, margins(config, range)));
+  return std::max(columns(1, config, pixels, {}),
+                  columns(config.largest_number, config, pixels, margins(config, range)));
 }
 
-TilePlan plan_tiles(const TileConfig& config, const DisparityRange& range, int width) {
+TilePlan plan_tiles(const TileConfig& config, const DisparityRange& range, int width, int pixels) {
+  if (width % pixels != 0) {
+    throw UserError(
+        fmt::format("pipeline.pixels_per_token = {0}: rows of {1} px are no whole number of tokens; "
+                    "image.width_granularity = {0} pads them",
+                    pixels, width));
+  }
   if (width <= static_cast<int>(config.limit)) return one_tile(width);
   const Margins margin = margins(config, range);
-  if (width > largest_width(config, range)) {
+  if (width > largest_width(config, range, pixels)) {
     throw UserError(
         fmt::format("images of {} columns do not fit: {} tiles of {} columns (tiles.largest_number, "
                     "tiles.limit) that overlap by "
@@ -51,7 +61,7 @@ TilePlan plan_tiles(const TileConfig& config, const DisparityRange& range, int w
                     config.disparities_in_margin
                         ? fmt::format(" + disparity offset {} + range {}", range.offset, range.count)
                         : "",
-                    largest_width(config, range)));
+                    largest_width(config, range, pixels)));
   }
   if (width % 2 != 0) {
     throw UserError(fmt::format(
@@ -60,9 +70,9 @@ TilePlan plan_tiles(const TileConfig& config, const DisparityRange& range, int w
         width));
   }
   int number = 2;
-  while (columns(number, config, margin) < width) ++number;
+  while (columns(number, config, pixels, margin) < width) ++number;
   TilePlan plan;
-  plan.width = round_up_to_even((width + (number - 1) * margin.both() + number - 1) / number);
+  plan.width = round_up((width + (number - 1) * margin.both() + number - 1) / number, std::lcm(pixels, 2));
   // Where tiles add little, what rounding adds makes some of them needless.
   const int step = plan.width - margin.both();
   number = 1 + (width - plan.width + step - 1) / step;

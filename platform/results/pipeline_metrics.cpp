@@ -185,7 +185,7 @@ void add_pipeline(MetricGroup& root, const Machine& machine, const SteadyWindow&
   }
   root.group("streams");
   for (const StreamBase* stream : machine.dataflow().streams()) {
-    add_stream(out.of(stream->basename()), *stream);
+    if (!stream->inside_stage()) add_stream(out.of(stream->basename()), *stream);
   }
   add_buffers(out, machine);
 }

@@ -136,6 +136,7 @@ void Tracing::add_parts() {
   const MachineRows rows(machine_);
   // A stage's streams come with it.
   for (StreamBase* stream : machine_.dataflow().streams()) {
+    if (stream->inside_stage()) continue;
     const bool touched = std::any_of(stages.begin(), stages.end(), [&](const StageInfo& info) {
       if (!is_wanted(info.stage->basename())) return false;
       for (unsigned port = 0; port < Stage::kMaxPorts; ++port) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Keys that are fine alone and not together, or not with this input: one line each, and nothing is run.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <string>
@@ -38,6 +39,30 @@ TEST_F(BadConfiguration, TheMemorysQueuesAndSize) {
                        "(dram.rows * dram.columns * dram.banks * dram.bus_bytes)",
                        0),
             0U);
+}
+
+TEST_F(BadConfiguration, ParallelRowsAndTokens) {
+  const auto line = [](int rows, int pixels, int groups) {
+    return fmt::format(
+        "matching.parallel_rows = {}: must be a multiple or a divisor of pipeline.pixels_per_token = {}, and "
+        "divide "
+        "pipeline.pixels_per_token * matching.iterations = {}",
+        rows, pixels, groups);
+  };
+  const auto starts = [&](const std::string& keys, const std::string& text) {
+    EXPECT_EQ(error(keys).rfind(text + " (matching.parallel_rows: ", 0), 0U) << error(keys);
+  };
+  starts("--set matching.parallel_rows=3", line(3, 1, 4));
+  starts("--set matching.parallel_rows=8", line(8, 1, 4));
+  starts("--set matching.parallel_rows=4 --set pipeline.pixels_per_token=6", line(4, 6, 24));
+  starts("--set matching.parallel_rows=2 --set matching.path_storage=memory",
+         "matching.parallel_rows = 2: needs matching.path_storage = \"on_chip\", costs of rows at once do "
+         "not pass "
+         "the memory");
+  EXPECT_EQ(
+      error("--set pipeline.pixels_per_token=3"),
+      "pipeline.pixels_per_token = 3: rows of 64 px are no whole number of tokens; image.width_granularity = "
+      "3 pads them");
 }
 
 TEST_F(BadConfiguration, KeysOfTheOtherMemory) {

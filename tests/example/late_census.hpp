@@ -25,7 +25,7 @@ class LateCensus final : public Stage {
       : Stage(name, context.clock, context.dataflow, latency),
         left_(config, context.width, context.height),
         right_(config, context.width, context.height),
-        look_ahead_(look_ahead_pixels(context, left_.look_ahead_rows(), left_.look_ahead_pixels())) {
+        look_ahead_(look_ahead_tokens(context, left_.look_ahead_rows(), left_.look_ahead_pixels())) {
     RasterSchedule raster;
     raster.reads.every = raster.writes.every = 0b11;
     raster.look_ahead = look_ahead_;
@@ -62,7 +62,7 @@ class ClockedCensus final : public sc_core::sc_module {
         width_(static_cast<std::size_t>(context.width)),
         left_(config, context.width, context.height),
         right_(config, context.width, context.height),
-        frame_(context.pixels()),
+        frame_(context.tokens()),
         look_ahead_(width_ * static_cast<std::size_t>(left_.look_ahead_rows() + 1)) {
     SC_HAS_PROCESS(ClockedCensus);
     SC_THREAD(run);

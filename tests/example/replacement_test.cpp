@@ -26,15 +26,19 @@ TEST(Replacement, AVariantOfAStageGivesTheSameValuesLater) {
   EXPECT_EQ(other.left_output, usual.left_output + 50);
 }
 
-TEST(Replacement, ABlockInKernelTimeGivesTheSameValues) {
-  const MachineConfig config = small_machine();
-  const StageFactory clocked = [&](const std::string& name, const StageContext& context) {
+StageFactory clocked_census(const MachineConfig& config) {
+  return [&config](const std::string& name, const StageContext& context) {
     auto block = std::make_unique<ClockedCensus>(name.c_str(), config.census, context);
     SlotModule slot;
     slot.look_ahead = block->look_ahead();
     slot.module = std::move(block);
     return slot;
   };
+}
+
+TEST(Replacement, ABlockInKernelTimeGivesTheSameValues) {
+  const MachineConfig config = small_machine();
+  const StageFactory clocked = clocked_census(config);
   const MachineRun usual = run_machine(config);
   const MachineRun other = run_machine(config, {{"census", clocked}});
   ASSERT_EQ(usual.fault, "");
@@ -56,6 +60,24 @@ TEST(Replacement, TheLastStageIsReplacedLikeTheOthers) {
   ASSERT_EQ(other.fault, "");
   EXPECT_EQ(other.disparities, usual.disparities);
   EXPECT_EQ(other.period, usual.period);
+}
+
+TEST(Replacement, AStageMayHaveTwoSidesAndTokensOfSeveralPixels) {
+  MachineConfig config = small_machine();
+  config.timing.overlap_frames = true;
+  config.timing.pixels_per_token = 2;
+  const MachineRun usual = run_machine(config);
+  const MachineRun other = run_machine(
+      config, {{"census", [&](const std::string& name, const auto& context) {
+                  return slot_module(std::make_unique<LateCensus>(name.c_str(), config.census, 50, context));
+                }}});
+  ASSERT_EQ(other.fault, "");
+  EXPECT_EQ(other.disparities, usual.disparities);
+  EXPECT_EQ(other.disparities, run_machine(small_machine()).disparities);
+  EXPECT_EQ(run_machine(config, {{"census", clocked_census(config)}}).fault,
+            "what stands in the slot census works in kernel time, value by value: pipeline.pixels_per_token "
+            "must be "
+            "1");
 }
 
 TEST(Replacement, WhatHasNoSlotOrNotItsPortsIsReported) {

@@ -59,6 +59,15 @@ TEST(TokenFormats, FieldsFollowOneAnotherFromBitZeroOn) {
   EXPECT_EQ(frame_record_format(128, 0, 24).width(), Bits(48));
 }
 
+TEST(TokenFormats, SeveralLieSideBySide) {
+  const TokenFormat pairs = offset_pair_format(13).several(2);
+  EXPECT_EQ(pairs.width(), Bits(104));
+  EXPECT_EQ(pairs.all()[4].name, "left_dx_1");
+  EXPECT_EQ(pairs.all()[4].low, 52u);
+  EXPECT_TRUE(pairs.all()[4].is_signed);
+  EXPECT_EQ(gray_format().several(1).all()[0].name, "grey");
+}
+
 TEST(TokenFormats, ADisparityIsItsTwelveBits) {
   const TokenFormat format = disparity_format();
   for (const std::uint16_t value : std::initializer_list<std::uint16_t>{0, 1, 0xABC, kInvalidDisparity}) {

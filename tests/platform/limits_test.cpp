@@ -144,6 +144,114 @@ TEST_F(Limits, TheRecurrenceHoldsUpEveryPixel) {
   EXPECT_EQ(cycles(""), 64 * 48 * 6);
   EXPECT_EQ(cycles("--set matching.recurrence_latency=2"), 64 * 48 * 6);
   EXPECT_EQ(cycles("--set matching.recurrence_latency=7"), 64 * 48 * (2 * 2 + 7));
+  // With the minimum first, the latency counts from the pixel's first iteration.
+  const std::string first =
+      "--set matching.recurrence_order=minimum_first --set matching.recurrence_latency=";
+  for (const int latency : {1, 5, 6, 7, 11, 40}) {
+    EXPECT_EQ(cycles(first + std::to_string(latency)), 64 * 48 * std::max(6, latency)) << latency;
+  }
+}
+
+// Stages, memory, cameras and link around the core have time to spare.
+TEST_F(Limits, OverlappingFramesLoseNothingBetweenThem) {
+  const std::string core = "--preset core-alone --rectified --timing-only --set clocks.core_hz=113130000 ";
+  const std::string published = core + "--size 1024x768 --set pipeline.overlap_frames=true ";
+  EXPECT_NEAR(rate(run(published)), 113.13e6 / (1024 * 768), 1e-6);
+  EXPECT_LT(rate(run(core + "--size 1024x768")), 142.0);
+
+  const std::string small = core + "--size 64x48 --set gap_interpolation.enabled=false ";
+  const auto period = [&](const std::string& more) { return 113.13e6 / rate(run(small + more)); };
+  const double pixels = 64 * 48;
+  // Speckle looks 4 rows and 4 px ahead, census and texture 2 and 2; what does not overlap empties itself.
+  EXPECT_NEAR(period(""), pixels + 4 * 64 + 4, 1e-3);
+  EXPECT_NEAR(period("--set speckle.overlap_frames=yes"), pixels + 2 * 64 + 2, 1e-3);
+  EXPECT_NEAR(period("--set pipeline.overlap_frames=true"), pixels, 1e-3);
+  EXPECT_NEAR(period("--set pipeline.overlap_frames=true --set speckle.overlap_frames=no"),
+              pixels + 4 * 64 + 4, 1e-3);
+  // A matcher that takes more than a cycle a pixel gives the others the time to empty themselves.
+  EXPECT_NEAR(period("-d 64 --set pipeline.overlap_frames=true"), 2 * pixels, 1e-3);
+  // A second pass uses the circuit of the first one.
+  EXPECT_NEAR(period("--set pipeline.overlap_frames=true --set matching.paths=n,s"), 2 * pixels, 1e-3);
+}
+
+TEST_F(Limits, SeveralPixelsPassInACycle) {
+  const std::string core =
+      "--preset core-alone --rectified --timing-only --set pipeline.overlap_frames=true ";
+  // Published: 3840x2160 at 4 px a clock of 74.25 MHz.
+  EXPECT_NEAR(
+      rate(run(core + "--size 3840x2160 --set clocks.core_hz=74250000 --set pipeline.pixels_per_token=4 "
+                      "--set matching.parallel_rows=4")),
+      74.25e6 * 4 / (3840 * 2160), 1e-6);
+  const std::string small = core + "--size 64x48 --set clocks.core_hz=1e8 ";
+  const auto cycles = [&](const std::string& more) {  // of a pixel
+    return 1e8 / rate(run(small + more)) / (64 * 48);
+  };
+  const auto design = [](int pixels, int rows) {
+    return fmt::format("--set pipeline.pixels_per_token={} --set matching.parallel_rows={} ", pixels, rows);
+  };
+  // One row of the matcher takes the pixels of a token one after the other, n_i cycles each.
+  EXPECT_NEAR(cycles("-d 128 " + design(4, 1)), 4, 1e-6);
+  EXPECT_NEAR(cycles("-d 128 " + design(4, 2)), 2, 1e-6);
+  EXPECT_NEAR(cycles("-d 128 " + design(4, 4)), 1, 1e-6);
+  EXPECT_NEAR(cycles("-d 128 " + design(4, 16)), 0.25, 1e-6);
+  // Rows at once where a pixel is a token.
+  EXPECT_NEAR(cycles("-d 128 " + design(1, 4)), 1, 1e-6);
+  EXPECT_NEAR(cycles("-d 128 " + design(1, 2)), 2, 1e-6);
+  // The recurrence is waited for once a step, of n_i iterations of all rows.
+  const std::string recurrence = "-d 128 --set matching.recurrence_latency=5 ";
+  EXPECT_NEAR(cycles(recurrence + design(1, 1)), 8, 1e-6);
+  EXPECT_NEAR(cycles(recurrence + design(1, 2)), 4, 1e-6);
+  EXPECT_NEAR(cycles(recurrence + design(2, 4)), 2, 1e-6);
+  EXPECT_NEAR(cycles(recurrence + design(4, 2)), 4, 1e-6);
+}
+
+// Windows side by side share their line buffers; FIFOs are wider.
+TEST_F(Limits, SeveralPixelsTakeTheirStorage) {
+  const std::string size = "--rectified --timing-only --size 64x48 -d 32 ";
+  const nlohmann::json one = run(size);
+  const nlohmann::json four = run(size + "--set pipeline.pixels_per_token=4");
+  const auto storage = [](const nlohmann::json& tree, const char* stage) {
+    return tree["stages"][stage]["storage"]["value"].get<std::int64_t>();
+  };
+  EXPECT_EQ(storage(four, "census") - storage(one, "census"), 2 * 8 * 5 * 3);
+  EXPECT_EQ(storage(four, "speckle") - storage(one, "speckle"), 2 * 12 * 5 * 3);
+  EXPECT_EQ(storage(four, "noise_reduction") - storage(one, "noise_reduction"), 12 * 3 * 3);
+  EXPECT_EQ(storage(four, "texture") - storage(one, "texture"), 3 * 5 * 8 + 3 * 12);
+  EXPECT_EQ(storage(four, "rectification"), storage(one, "rectification"));
+  EXPECT_EQ(storage(four, "matching"), storage(one, "matching"));
+  const auto width = [](const nlohmann::json& tree, const char* stream) {
+    return tree["streams"][stream]["width"]["value"].get<std::int64_t>();
+  };
+  EXPECT_EQ(width(four, "left_pixels"), 4 * 8);
+  EXPECT_EQ(width(four, "left_codes"), 4 * 24);
+  EXPECT_EQ(width(four, "winners"), 4 * 12);
+  EXPECT_EQ(width(four, "costs_subpixel"), 32 * 11);
+  // What is moved is the same, in wider tokens.
+  EXPECT_NEAR(four["energy"]["on_chip"]["value"].get<double>(),
+              one["energy"]["on_chip"]["value"].get<double>(),
+              0.05 * one["energy"]["on_chip"]["value"].get<double>());
+
+  const nlohmann::json rows = run(size + "--set pipeline.pixels_per_token=4 --set matching.parallel_rows=4");
+  EXPECT_EQ(width(rows, "costs_subpixel"), 4 * 32 * 11);
+  EXPECT_EQ(storage(rows, "subpixel"), 4 * storage(one, "subpixel"));
+  EXPECT_EQ(storage(rows, "uniqueness"), 4 * storage(one, "uniqueness"));
+  EXPECT_EQ(storage(rows, "consistency"), 4 * storage(one, "consistency"));
+  // Path W of three rows more; two columns of path costs between two rows; codes and disparities of three
+  // rows that wait; three windows of right codes more.
+  const std::int64_t pixel = (32 + 1) * 9;
+  EXPECT_EQ(storage(rows, "matching") - storage(one, "matching"),
+            3 * pixel + 3 * 2 * 3 * pixel + 3 * 64 * (2 * 24 + 12) + 3 * 24 * 31);
+}
+
+// An image is as wide as the tiles hold it.
+TEST_F(Limits, TilesSayHowWideAnImageMayBe) {
+  EXPECT_EQ(run("--timing-only --size 2560x64 --set tiles.largest_number=3")["run"]["width"]["value"], 2560);
+  EXPECT_EQ(run("--timing-only --size 1888x64")["run"]["width"]["value"], 1888);  // 32 disparities
+  const test::Outcome outcome = program_("run --timing-only -q --size 1888x64");
+  EXPECT_EQ(
+      outcome.err,
+      "parallax: error: images of 1888 columns do not fit: 2 tiles of 1024 columns (tiles.largest_number, "
+      "tiles.limit) that overlap by 32 + 32 + disparity offset 0 + range 128 hold 1856\n");
 }
 
 // A host that takes 325.5 frames a second, and cameras at 400.

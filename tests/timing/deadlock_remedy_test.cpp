@@ -48,6 +48,7 @@ std::string text(bool stuck, const Dataflow& dataflow, std::uint64_t frames) {
   for (const Remedy::Depth& depth : remedy.depths)
     out << " " << depth.stream->basename() << " " << depth.tokens;
   for (const StreamBase* stream : dataflow.streams()) {
+    if (stream->inside_stage()) continue;  // has no depth to choose
     out << " " << stream->basename() << " " << stream->depth() << " " << stream->width().count();
   }
   return out.str();
@@ -191,7 +192,8 @@ TEST(DeadlockRemedy, RandomPipelines) {
 RC_GTEST_PROP(DeadlockRemedy, AutomaticDepthsNeedNone, ()) {
   PipelineCase c = random_pipeline(Depths::kAutomatic, 0);
   MachineConfig& config = c.config;
-  const int width = number(1, 300);
+  const int pixels = config.timing.pixels_per_token;
+  const int width = pixels * number(1, 300 / pixels);
   const int height = number(1, 100);
   config.census.window_height = 2 * number(0, (64 / config.census.window_width - 1) / 2) + 1;
   config.texture.window = 2 * number(1, 7) + 1;
@@ -199,6 +201,8 @@ RC_GTEST_PROP(DeadlockRemedy, AutomaticDepthsNeedNone, ()) {
   config.gap_interpolation.l_max = number(0, 20);
   config.matching.parallelism = number(1, 32);
   config.matching.iterations = number(1, 8);
+  if (config.matching.parallel_rows > 1)
+    config.matching.parallel_rows = random_rows(config.matching.iterations, pixels);
   PipelineTiming& time = config.timing;
   for (StageTiming* timing :
        {&time.rectification, &time.census, &time.matching, &time.subpixel, &time.uniqueness,

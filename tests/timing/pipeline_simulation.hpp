@@ -62,7 +62,8 @@ class PipelineSimulation {
         clock_("core", Hertz(c.config.clocks.core_hz)),
         dataflow_("dataflow", leap_interval),
         pipeline_("pipeline", case_.config, case_.map, c.tiles,
-                  {clock_, dataflow_, c.tiles.width, c.height()}),
+                  {clock_, dataflow_, c.tiles.width, c.height(), case_.config.timing.overlap_frames,
+                   case_.config.timing.pixels_per_token}),
         left_node_(source(c.left)),
         right_node_(source(c.right)),
         map_node_(source(c.map_stalls)),
@@ -139,6 +140,7 @@ class PipelineSimulation {
       const FifoConfig& fifo = stream->config();
       edges[stream].depth = fifo.depth;
       edges[stream].of_kind(fifo.kind, fifo.synchroniser_stages);
+      if (fifo.kind == FifoKind::kFree) edges[stream].offsets(fifo.write_to_read, fifo.read_to_write);
       graph.edges.push_back(edges[stream]);
     }
     return graph;

@@ -33,6 +33,7 @@ inline StageTiming random_timing() {
   timing.latency = count(0, 24);
   if (number(0, 3) == 0) timing.row_overhead = count(0, 5);
   if (number(0, 3) == 0) timing.frame_overhead = count(0, 60);
+  if (number(0, 3) == 0) timing.overlap = number(0, 1) == 0 ? FrameOverlap::kYes : FrameOverlap::kNo;
   return timing;
 }
 
@@ -56,11 +57,24 @@ inline TilePlan random_tiles(int width, int most) {
   return plan;
 }
 
+/// Parallel rows that go with so many iterations and pixels a token.
+inline int random_rows(int iterations, int pixels) {
+  std::vector<int> all;
+  for (int rows = 1; rows <= pixels * iterations; ++rows) {
+    const bool whole = pixels % rows == 0 || rows % pixels == 0;
+    if (whole && pixels * iterations % rows == 0) all.push_back(rows);
+  }
+  return all[number(0, static_cast<int>(all.size()) - 1)];
+}
+
 /// `frames` frames of a small image, `larger` times as wide and high, in tiles.
 inline PipelineCase random_pipeline(Depths depths, std::uint64_t frames, int larger = 1, int most_tiles = 3) {
   PipelineCase c;
   MachineConfig& config = c.config;
-  const int width = number(1, 48) * larger;
+  const int pixels = number(0, 1) == 0 ? 1 : number(2, 4);
+  config.timing.pixels_per_token = pixels;
+  config.timing.overlap_frames = number(0, 1) == 0;
+  const int width = number(1, 48 / pixels) * pixels * larger;
   const int height = number(1, 16) * larger;
   config.rectification.range.window = 2 * number(0, 4) + 1;
   config.census.window_width = 2 * number(1, 3) + 1;
@@ -68,8 +82,12 @@ inline PipelineCase random_pipeline(Depths depths, std::uint64_t frames, int lar
   config.matching.parallelism = number(1, 8);
   config.matching.iterations = number(1, 3);
   if (number(0, 3) == 0) config.matching.recurrence_latency = number(2, 9);
+  if (number(0, 1) == 0) config.matching.recurrence_order = RecurrenceOrder::kMinimumFirst;
   if (number(0, 2) == 0) config.matching.paths = count(1, 255);
   if (number(0, 2) == 0) config.matching.path_storage = PathStorage::kMemory;
+  if (config.matching.path_storage == PathStorage::kOnChip && number(0, 1) == 0) {
+    config.matching.parallel_rows = random_rows(config.matching.iterations, pixels);
+  }
   config.consistency.enabled = number(0, 3) != 0;
   config.texture.enabled = number(0, 3) != 0;
   config.texture.window = 2 * number(1, 4) + 1;
