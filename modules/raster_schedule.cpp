@@ -156,7 +156,9 @@ StageSchedule two_sides(const StageContext& context, const RasterSchedule& raste
   read(look_ahead, frame, rest);
   sides.reading.run(idles(raster.timing.frame_overhead));
 
+  // A step's rest is the reading side's: the writing side goes by it until nothing more is read.
   RasterSchedule out = raster;
+  out.last_interval = raster.timing.interval;
   out.reads = {};
   out.reads_late = both(raster.reads_late, handed);
   RasterSchedule tail = raster;

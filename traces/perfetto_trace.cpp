@@ -316,8 +316,8 @@ void PerfettoTrace::frame(const FrameRecord& record) {
   const auto part = [&](FrameStep from, FrameStep to, EventName what) {
     if (at(from) < at(to)) slice(track, at(from), at(to), what);
   };
-  part(FrameStep::kExposed, FrameStep::kInMemory, kReadOut);
-  part(FrameStep::kInMemory, FrameStep::kCoreStarted, kWaitsForCore);
+  part(FrameStep::kExposed, FrameStep::kStartable, kReadOut);
+  part(FrameStep::kStartable, FrameStep::kCoreStarted, kWaitsForCore);
   part(FrameStep::kCoreStarted, FrameStep::kResultsInMemory, kInCore);
   part(FrameStep::kResultsInMemory, FrameStep::kAtHost, kToHost);
   slice_end(track, at(FrameStep::kAtHost));

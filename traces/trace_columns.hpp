@@ -82,6 +82,7 @@ void put(Row& row, const TraceParts&, const FrameRecord& event) {
   row.number("frame", event.frame + 1);
   row.date("exposed_ps", at(FrameStep::kExposed));
   row.date("first_byte_ps", at(FrameStep::kFirstByte));
+  row.date("startable_ps", at(FrameStep::kStartable));
   row.date("in_memory_ps", at(FrameStep::kInMemory));
   row.date("core_started_ps", at(FrameStep::kCoreStarted));
   row.date("first_disparity_ps", at(FrameStep::kFirstDisparity));

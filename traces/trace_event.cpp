@@ -7,7 +7,7 @@ namespace parallax {
 
 const char* name_of(FrameStep step) {
   static constexpr std::array<const char*, kFrameSteps> kNames{
-      "exposed",         "first_byte",     "in_memory",         "core_started",
+      "exposed",         "first_byte",     "startable",         "in_memory", "core_started",
       "first_disparity", "last_disparity", "results_in_memory", "at_host"};
   return kNames.at(index_of(step));
 }

@@ -146,19 +146,20 @@ struct BurstTransfer {
   Picoseconds answered;
 };
 
-/// What a frame comes to, in this order.
+/// What a frame comes to, in this order but for kInMemory.
 enum class FrameStep : std::uint8_t {
   kExposed,         ///< end of exposure, the read-out begins
   kFirstByte,       ///< in memory
-  kInMemory,        ///< as much of it as the core waits for
+  kStartable,       ///< as much of it in memory as the core waits for
+  kInMemory,        ///< all of it; in a machine that starts early this may come after other steps
   kCoreStarted,     ///< by software
   kFirstDisparity,  ///< out of the last filter
   kLastDisparity,
   kResultsInMemory,
   kAtHost,  ///< its last bit
 };
-constexpr std::size_t kFrameSteps = 8;
-/// "exposed", "first_byte", "in_memory", "core_started", "first_disparity", "last_disparity",
+constexpr std::size_t kFrameSteps = 9;
+/// "exposed", "first_byte", "startable", "in_memory", "core_started", "first_disparity", "last_disparity",
 /// "results_in_memory", "at_host".
 const char* name_of(FrameStep step);
 

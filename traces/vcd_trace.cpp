@@ -12,8 +12,9 @@ constexpr std::int32_t kStateBits = 3;
 constexpr std::int64_t kIdle = 7;  // no firing known, none waited for
 constexpr std::int32_t kNumberBits = 32;
 // The dates of disparities are known when it is too late for a wave.
-constexpr FrameStep kTold[] = {FrameStep::kExposed,     FrameStep::kFirstByte,       FrameStep::kInMemory,
-                               FrameStep::kCoreStarted, FrameStep::kResultsInMemory, FrameStep::kAtHost};
+constexpr FrameStep kTold[] = {FrameStep::kExposed,  FrameStep::kFirstByte,   FrameStep::kStartable,
+                               FrameStep::kInMemory, FrameStep::kCoreStarted, FrameStep::kResultsInMemory,
+                               FrameStep::kAtHost};
 
 // Identifier of the n-th signal: printable characters without a blank.
 std::string code_of(std::size_t number) {

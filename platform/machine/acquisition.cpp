@@ -226,8 +226,11 @@ DmaJob Acquisition::image_job(std::uint64_t address, bool values, int rows) cons
 void Acquisition::expose(std::int64_t frame) {
   const StereoFrame images = frame < input_.frames && input_.expose ? input_.expose(frame) : StereoFrame{};
   hooks_.exposed(frame, images.left != nullptr);
-  const std::function<void()> done = when_both([this] { frame_complete_.notify(); });
-  const std::function<void()> enough = when_both([this, frame] { hooks_.in_memory(frame); });
+  const std::function<void()> done = when_both([this, frame] {
+    hooks_.in_memory(frame);
+    frame_complete_.notify();
+  });
+  const std::function<void()> enough = when_both([this, frame] { hooks_.startable(frame); });
   const std::uint64_t early = config_.camera.early_start_rows;
   const std::uint64_t height = input_.height;
   const std::uint64_t waited_for = (early == 0 ? height : std::min(early, height)) *

@@ -34,8 +34,10 @@ class Acquisition final : public sc_core::sc_module {
   /// Told of each frame, in order.
   struct Hooks {
     std::function<void(std::int64_t frame, bool values)> exposed;  ///< `values`: it carries images
-    std::function<void(std::int64_t frame)> begun;      ///< the first bytes of an image are in memory
-    std::function<void(std::int64_t frame)> in_memory;  ///< as much of both images as the core waits for
+    std::function<void(std::int64_t frame)> begun;  ///< the first bytes of an image are in memory
+    std::function<void(std::int64_t frame)>
+        startable;  ///< as much of both images as the core waits for is there
+    std::function<void(std::int64_t frame)> in_memory;  ///< both images are there
     std::function<void(CameraFault fault)> faulty;      ///< a frame was found to have a fault
   };
 

@@ -18,10 +18,11 @@ struct StereoFrame {
 
 /// When a frame reached the parts of the machine, in kernel time.
 struct FrameTimes {
-  sc_core::sc_time exposed;     ///< end of exposure, read-out begins
-  sc_core::sc_time first_byte;  ///< the first burst of either image in memory
-  sc_core::sc_time
-      in_memory;  ///< both images in memory, or camera.early_start_rows of them: the core can start
+  sc_core::sc_time exposed;          ///< end of exposure, read-out begins
+  sc_core::sc_time first_byte;       ///< the first burst of either image in memory
+  sc_core::sc_time startable;        ///< as much of both images in memory as the core waits for: all, or
+                                     ///< camera.early_start_rows of them
+  sc_core::sc_time in_memory;        ///< both images whole
   sc_core::sc_time core_started;     ///< by software
   sc_core::sc_time read;             ///< both images, by the core: their frame buffer is free
   sc_core::sc_time first_disparity;  ///< first disparity out of the last filter

@@ -6,13 +6,15 @@ namespace parallax {
 const std::vector<FrameSpan>& frame_spans() {
   static const std::vector<FrameSpan> spans{
       {"first_pixel",
-       "from the frame in memory (as far as the core waits for it) to its first disparity out of the last "
+       "from when the core can start with the frame, as much of it as it waits for being in memory, to its "
+       "first disparity out of the last "
        "filter",
-       &FrameTimes::in_memory, &FrameTimes::first_disparity},
+       &FrameTimes::startable, &FrameTimes::first_disparity},
       {"last_pixel",
-       "from the frame in memory (as far as the core waits for it) to its last disparity out of the last "
+       "from when the core can start with the frame, as much of it as it waits for being in memory, to its "
+       "last disparity out of the last "
        "filter",
-       &FrameTimes::in_memory, &FrameTimes::last_disparity},
+       &FrameTimes::startable, &FrameTimes::last_disparity},
       {"first_byte_to_first_pixel",
        "from the frame's first byte in memory to its first disparity out of the last filter",
        &FrameTimes::first_byte, &FrameTimes::first_disparity},

@@ -53,6 +53,11 @@ void FrameLedger::first_byte(std::int64_t frame) {
   tell(frame, FrameStep::kFirstByte);
 }
 
+void FrameLedger::startable(std::int64_t frame) {
+  of(frame).startable = sc_core::sc_time_stamp();
+  tell(frame, FrameStep::kStartable);
+}
+
 void FrameLedger::in_memory(std::int64_t frame) {
   of(frame).in_memory = sc_core::sc_time_stamp();
   tell(frame, FrameStep::kInMemory);

@@ -32,6 +32,7 @@ class FrameLedger {
   /// The first byte of one of its images is in memory, now; of two calls the first counts.
   void first_byte(std::int64_t frame);
   /// As much of it is in memory, now, as the core waits for.
+  void startable(std::int64_t frame);
   void in_memory(std::int64_t frame);
   /// The core has been started with it, now.
   void core_started(std::int64_t frame);

@@ -75,10 +75,11 @@ Acquisition::Hooks Machine::acquisition_hooks() {
   Acquisition::Hooks hooks;
   hooks.exposed = [this](std::int64_t, bool values) { ledger_.exposed(values); };
   hooks.begun = [this](std::int64_t frame) { ledger_.first_byte(frame); };
-  hooks.in_memory = [this](std::int64_t frame) {
-    ledger_.in_memory(frame);
-    software_.frame_in_memory();
+  hooks.startable = [this](std::int64_t frame) {
+    ledger_.startable(frame);
+    software_.frame_startable();
   };
+  hooks.in_memory = [this](std::int64_t frame) { ledger_.in_memory(frame); };
   hooks.faulty = [this](CameraFault fault) { core_.control().frame_faulty(fault); };
   return hooks;
 }

@@ -52,8 +52,8 @@ void Sensor::advance() {
   }
 }
 
-// When a byte of the image is there: with the pixel that its last bit belongs to, and not before the cable has
-// brought it.
+// When a byte of the image is there: with the pixel that its last bit belongs to, and not before the cable
+// has brought it.
 Cycles Sensor::due(std::int64_t byte) const {
   const std::int64_t bytes = byte % row_bytes() + 1;  // of the row
   const std::int64_t last_bit = bytes * 8 - 1;

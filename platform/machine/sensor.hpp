@@ -18,9 +18,9 @@
 namespace parallax {
 
 struct SensorConfig {
-  int width = 0;   ///< px
-  int height = 0;  ///< px
-  Cycles row{0};   ///< pixel clocks from one row's first pixel to the next one's
+  int width = 0;                          ///< px
+  int height = 0;                         ///< px
+  Cycles row{0};                          ///< pixel clocks from one row's first pixel to the next one's
   Ratio byte_time{1, 1'000'000'000'000};  ///< pixel clocks that a byte takes on the cable
   Cycles frame_blanking{0};
   Bytes burst{128};

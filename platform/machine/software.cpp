@@ -28,8 +28,8 @@ Software::Software(const sc_core::sc_module_name& name, const MachineConfig& con
   dont_initialize();
 }
 
-void Software::frame_in_memory() {
-  ++in_memory_;
+void Software::frame_startable() {
+  ++startable_;
   start_when_possible();
 }
 
@@ -37,7 +37,7 @@ void Software::frame_in_memory() {
 void Software::start_when_possible() {
   const bool buffer =
       output_buffers_used_ < static_cast<std::int64_t>(memory_map_.number_of(BufferKind::kOutput));
-  const bool frame = !starting_ && started_ < in_memory_ && (in_core_ == 0 || config_.software.queue_frames);
+  const bool frame = !starting_ && started_ < startable_ && (in_core_ == 0 || config_.software.queue_frames);
   output_full_time_.set(frame && !buffer);
   if (!frame || !buffer) return;
   starting_ = true;

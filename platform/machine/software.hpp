@@ -34,7 +34,7 @@ class Software final : public sc_core::sc_module {
   CoreDriver driver{"driver"};
 
   /// One more frame is in memory, as far as the core waits for it.
-  void frame_in_memory();
+  void frame_startable();
   /// Whether it writes the registers of a frame just now: at other times no start is expected.
   bool offers() const { return offers_; }
   /// The core takes the frame, within the write to its control register.
@@ -67,7 +67,7 @@ class Software final : public sc_core::sc_module {
   const CoreFacts core_;
   const Send send_;
   sc_core::sc_event start_;
-  std::int64_t in_memory_ = 0;            // frames
+  std::int64_t startable_ = 0;            // frames
   std::int64_t started_ = 0;              // of them, in the core or through it
   std::int64_t in_core_ = 0;              // of them
   std::int64_t sent_ = 0;                 // of them, or on their way to the host

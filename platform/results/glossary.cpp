@@ -56,7 +56,10 @@ std::vector<Name> names() {
        "pipeline; output writes results, link reads them; buffer_row_write, buffer_row_read, "
        "buffer_frame_write "
        "and buffer_frame_read are those of what the matcher keeps in memory."},
-      {"<stage>", "A stage of the pipeline; those that have keys are named as in the configuration."},
+      {"<stage>",
+       "A stage of the pipeline; those that have keys are named as in the configuration. Where frames "
+       "overlap, a stage "
+       "that looks ahead has two sides: `<name>` reads, `<name>_writing` writes."},
       {"<stream>", "A FIFO between two stages, or between a stage and a memory port."},
       {"<buffers>", "left, right or output: buffers in memory between two engines."},
       {"<wait>", "wait_1, wait_2 and so on."},

@@ -163,6 +163,7 @@ void Tracing::delivered(std::int64_t frame) {
   const auto at = [&record](FrameStep step) -> Picoseconds& { return record.at[index_of(step)]; };
   at(FrameStep::kExposed) = date(times.exposed);
   at(FrameStep::kFirstByte) = date(times.first_byte);
+  at(FrameStep::kStartable) = date(times.startable);
   at(FrameStep::kInMemory) = date(times.in_memory);
   at(FrameStep::kCoreStarted) = date(times.core_started);
   at(FrameStep::kFirstDisparity) = date(times.first_disparity);

@@ -11,6 +11,8 @@
 #include "platform/config/preset.hpp"
 #include "platform/evaluation/evaluation_inputs.hpp"
 #include "platform/evaluation/evaluation_pool.hpp"
+#include "platform/input/image_padding.hpp"
+#include "platform/machine/tile_plan.hpp"
 #include "tlm/error.hpp"
 
 namespace parallax {
@@ -35,6 +37,11 @@ void check(const PublishedRow& row) {
   MachineConfig config;
   try {
     config = load_configuration(request_of(row), preset_folders()).machine;
+    if (!row.refused && config.image.max_width == 0) {
+      plan_tiles(config.tiles, config.matching.range(),
+                 padded_size({row.width, row.height}, config.image.granularity()).width,
+                 config.timing.pixels_per_token);
+    }
   } catch (const UserError& error) {
     throw UserError(fmt::format("{}: {}: {}", row.origin, row.name, error.what()));
   }

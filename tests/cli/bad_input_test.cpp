@@ -86,16 +86,23 @@ TEST_F(BadInput, MissingOrUnreadableImage) {
 
 TEST_F(BadInput, ImagesOfOtherSizes) {
   image("small.png", noise(32, 48));
-  image("wide.png", noise(1857, 4));
+  image("wide.png", noise(1953, 4));
   image("high.png", noise(4, 1857));
   EXPECT_EQ(error("--left left.png --right small.png"),
             "the left image left.png is 64x48, the right image small.png is 32x48; both must have one size");
   EXPECT_EQ(error("--left wide.png --right wide.png"),
-            "image wide.png is 1857x4, larger than the largest size 1856x1856");
+            "image wide.png is 1953x4, larger than the largest size 1952x1856");
   EXPECT_EQ(error("--left high.png --right high.png"),
-            "image high.png is 4x1857, larger than the largest size 1856x1856");
-  EXPECT_EQ(error("--size 1857x16"),
-            "the built-in scene would be 1857x16, larger than the largest size 1856x1856 (image.max_width, "
+            "image high.png is 4x1857, larger than the largest size 1952x1856");
+  EXPECT_EQ(
+      error("--size 1953x16"),
+      "images of 1984 columns do not fit: 2 tiles of 1024 columns (tiles.largest_number, tiles.limit) that "
+      "overlap by 32 + 32 + disparity offset 0 + range 32 hold 1952");
+  EXPECT_EQ(error("--size 16x1857"),
+            "the built-in scene would be 16x1857, larger than the largest size 1952x1856 (image.max_width, "
+            "image.max_height)");
+  EXPECT_EQ(error("--size 65x16 --set image.max_width=64"),
+            "the built-in scene would be 65x16, larger than the largest size 64x1856 (image.max_width, "
             "image.max_height)");
   EXPECT_EQ(pair_error("--set image.width=32"),
             "image.width = 32, but left.png has 64 px; 0 takes it from the images");
@@ -105,7 +112,7 @@ TEST_F(BadInput, ImagesOfOtherSizes) {
   bytes[19] = bytes[23] = 32;
   text("huge.png", bytes);
   EXPECT_EQ(error("--left huge.png --right huge.png"),
-            "image huge.png is 20000x20000, larger than the largest size 1856x1856");
+            "image huge.png is 20000x20000, larger than the largest size 1952x1856");
   EXPECT_EQ(pair_error("--ground-truth huge.png"),
             "huge.png: the ground truth is 20000x20000, the images are 64x48");
 }

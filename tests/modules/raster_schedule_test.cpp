@@ -124,9 +124,12 @@ RC_GTEST_PROP(RasterSchedule, TwoSidesMeetAtEachTokenThatIsWritten, ()) {
       reading.push_back({0, 0, c.raster.timing.row_overhead});
     const std::size_t out = writing.size();
     const bool held_back = i >= tokens - ahead;
-    add_token(writing, c.raster, i, held_back ? kKept : kHanded, 1);
-    if (!held_back) {
-      for (std::size_t f = out; f < writing.size(); ++f) writing[f].reads = kHanded;
+    add_token(writing, c.raster, i, kKept, 1);
+    if (!held_back) {  // the reading side sets the pace
+      for (std::size_t f = out; f < writing.size(); ++f) {
+        writing[f].reads = kHanded;
+        writing[f].cycles = c.raster.timing.interval;
+      }
     }
   }
   if (c.raster.timing.frame_overhead > 0) reading.push_back({0, 0, c.raster.timing.frame_overhead});

@@ -168,7 +168,8 @@ TEST(Configuration, ChecksWhatMustFitTogether) {
          "dma.link.fifo_bytes = 64: must hold a burst: at least dma.link.burst_bytes = 128 (");
   starts({"link.packet_payload_bytes=1600"},
          "link.packet_payload_bytes = 1600: must be at most link.packet_wire_bytes = 1538 (");
-  starts({"image.width=1888"}, "image.width = 1888: must be at most image.max_width = 1856 (");
+  starts({"image.width=1888", "image.max_width=1856"},
+         "image.width = 1888: must be at most image.max_width = 1856 (");
   starts({"image.height=1872"}, "image.height = 1872: must be at most image.max_height = 1856 (");
   starts({"census.window_width=4"}, "census.window_width = 4");
   starts({"census.window_width=9", "census.window_height=9"}, "census.window_width x census.window_height");

@@ -175,8 +175,8 @@ TEST_F(ValidateCommand, WhatCannotBeRun) {
   const std::string tail = "published = 325\nleast = 0\nmost = 1\n";
   std::string other = kSmall;
   other.replace(other.find("performance/frame_rate"), 22, "performance/fps");
-  const auto row_error = [&](const std::string& lines) {
-    const std::string text = error(lines);
+  const auto row_error = [&](const std::string& lines, const std::string& options = "") {
+    const std::string text = error(lines, options);
     const std::size_t begin = text.find("rows.toml:1: ");
     return begin == std::string::npos ? text : text.substr(begin);
   };
@@ -197,9 +197,13 @@ TEST_F(ValidateCommand, WhatCannotBeRun) {
             0u);
   EXPECT_NE(error(kSmall + tail, "--set matching.p3=1").find("matching.p3"), std::string::npos);
   std::string wide = kSmall;
-  wide.replace(wide.find("64x48"), 5, "1888x48");
-  EXPECT_EQ(row_error(wide + tail),
-            "rows.toml:1: small: image.max_width = 1856 is less than the row's 1888 px\n");
+  wide.replace(wide.find("64x48"), 5, "2048x48");
+  EXPECT_EQ(
+      row_error(wide + tail),
+      "rows.toml:1: small: images of 2048 columns do not fit: 2 tiles of 1024 columns (tiles.largest_number, "
+      "tiles.limit) that overlap by 32 + 32 + disparity offset 0 + range 32 hold 1952\n");
+  EXPECT_EQ(row_error(wide + tail, "--set image.max_width=1856"),
+            "rows.toml:1: small: image.max_width = 1856 is less than the row's 2048 px\n");
   std::string high = kSmall;
   high.replace(high.find("64x48"), 5, "64x1888");
   EXPECT_EQ(row_error(high + tail),

@@ -21,7 +21,8 @@ constexpr int kHeight = 64;
 constexpr std::int64_t kFrames = 12;
 
 struct Outcome {
-  std::vector<double> exposed, first_byte, in_memory, first_disparity, results_in_memory, at_host;  // s
+  std::vector<double> exposed, first_byte, startable, in_memory, first_disparity, results_in_memory,
+      at_host;  // s
   std::int64_t taken = 0, faulty = 0, dropped = 0;
   std::uint32_t errors = 0;  // the register
   std::string error;
@@ -46,8 +47,8 @@ Outcome run(const std::vector<std::string>& assignments) {
       sc_core::sc_start();
       for (std::size_t i = 0; i < kFrames; ++i) {
         const FrameTimes& t = machine.times()[i];
-        for (const sc_core::sc_time& time :
-             {t.exposed, t.first_byte, t.in_memory, t.first_disparity, t.results_in_memory, t.at_host}) {
+        for (const sc_core::sc_time& time : {t.exposed, t.first_byte, t.startable, t.in_memory,
+                                             t.first_disparity, t.results_in_memory, t.at_host}) {
           out << time.to_seconds() << " ";
         }
       }
@@ -67,8 +68,8 @@ Outcome run(const std::vector<std::string>& assignments) {
     return o;
   }
   for (std::int64_t i = 0; i < kFrames; ++i) {
-    for (std::vector<double>* dates :
-         {&o.exposed, &o.first_byte, &o.in_memory, &o.first_disparity, &o.results_in_memory, &o.at_host}) {
+    for (std::vector<double>* dates : {&o.exposed, &o.first_byte, &o.startable, &o.in_memory,
+                                       &o.first_disparity, &o.results_in_memory, &o.at_host}) {
       double date = -1;
       in >> date;
       dates->push_back(date);
@@ -149,11 +150,29 @@ TEST(MachineCameras, ExposureMustFitIntoThePeriod) {
       "before it 270336, which allows at most 295.93 frames/s");
 }
 
+// A row of 160 bytes is through a cable of 20 MB/s after 8 us, though its pixels took the sensor 2 us; half a row
+// after half of that.
+TEST(MachineCameras, ASlowCableBringsARowsBytesOverTheWholeRow) {
+  const std::vector<std::string> slow{"camera.bytes_per_second=20000000", "camera.early_start_rows=1",
+                                      "dma.camera.burst_bytes=80", "dma.camera.data_bits=64"};
+  const Outcome o = run(slow);
+  ASSERT_EQ(o.error, "");
+  EXPECT_NEAR(o.startable[0] - o.exposed[0], 8e-6, 400e-9);
+  EXPECT_NEAR(o.first_byte[0] - o.exposed[0], 4e-6, 400e-9);
+  std::vector<std::string> fast = slow;
+  fast[0] = "camera.bytes_per_second=1000000000";
+  const Outcome quick = run(fast);
+  EXPECT_NEAR(quick.startable[0] - quick.exposed[0], 2e-6, 400e-9);
+  EXPECT_NEAR(quick.first_byte[0] - quick.exposed[0], 1e-6, 400e-9);
+}
+
 TEST(MachineCameras, TheCoreBeginsEarly) {
   const Outcome whole = run({});
   const Outcome early = run({"camera.early_start_rows=8"});
   const double read_out = whole.in_memory[0] - whole.exposed[0];
-  EXPECT_NEAR(early.in_memory[0] - early.exposed[0], read_out * 8 / kHeight, read_out / 10);
+  EXPECT_EQ(whole.startable[0], whole.in_memory[0]);
+  EXPECT_NEAR(early.startable[0] - early.exposed[0], read_out * 8 / kHeight, read_out / 10);
+  EXPECT_NEAR(early.in_memory[0], whole.in_memory[0], 1e-6);  // the core reads beside the cameras by then
   EXPECT_LT(early.first_disparity[0], whole.first_disparity[0]);
   EXPECT_LT(early.results_in_memory[0], whole.results_in_memory[0]);
   // It cannot be done before the last row is there.

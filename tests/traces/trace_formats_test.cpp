@@ -140,7 +140,7 @@ TEST_F(TraceFormats, VcdOfRowsHasTheRowsOfCsv) {
     ASSERT_TRUE(wave.is(name + ".frame", std::stoll(frame), std::stoll(begin), std::stoll(end))) << line;
   }
   for (const char* step :
-       {"exposed", "first_byte", "in_memory", "core_started", "results_in_memory", "at_host"}) {
+       {"exposed", "first_byte", "startable", "in_memory", "core_started", "results_in_memory", "at_host"}) {
     const std::int64_t date = csv.number(fmt::format("select {}_ps from frames where frame='2'", step));
     EXPECT_EQ(wave.at(std::string("frames.") + step, date), 2) << step;
     EXPECT_EQ(wave.at(std::string("frames.") + step, date - 1), 1) << step;

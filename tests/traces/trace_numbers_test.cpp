@@ -65,8 +65,8 @@ class TraceNumbers : public testing::TestWithParam<Case> {
                                                      first_ - 1, last_))) /
         (last_ - first_ + 1);
     EXPECT_NEAR(metric<double>(timing_.at("performance"), "frame_rate") * period, 1e12, 1e-3);
-    for (const auto& [span, from, to] : {std::tuple{"first_pixel", "in_memory", "first_disparity"},
-                                         {"last_pixel", "in_memory", "last_disparity"},
+    for (const auto& [span, from, to] : {std::tuple{"first_pixel", "startable", "first_disparity"},
+                                         {"last_pixel", "startable", "last_disparity"},
                                          {"first_byte_to_host", "first_byte", "at_host"},
                                          {"exposure_to_host", "exposed", "at_host"},
                                          {"exposure_to_last_pixel", "exposed", "last_disparity"}}) {
