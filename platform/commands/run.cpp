@@ -195,9 +195,9 @@ class Run {
 }  // namespace
 
 int run(const RunOptions& options, CommandContext& context) {
+  if (!options.vary.empty()) return vary(options, context);
   check_options(options);
-  if (options.relax) return relax(options, context);
-  return options.vary.empty() ? Run(options, context).execute() : vary(options, context);
+  return options.relax ? relax(options, context) : Run(options, context).execute();
 }
 
 }  // namespace parallax

@@ -82,8 +82,9 @@ void add_run_command(CLI::App& app, CommandContext& context) {
       ->group("Timing");
   command
       .add_option("--vary", options->vary,
-                  "With --timing-only: one run for each value of a configuration key; repeated, for each "
-                  "combination, the last key changing fastest")
+                  "With --timing-only: one run for each value of a configuration key, or of size, preset, "
+                  "disparities, input, calibration or map; start:stop:step stands for a range of numbers. "
+                  "Repeated, for each combination, the last one changing fastest")
       ->type_name("KEY=VALUE,...")
       ->allow_extra_args(false)
       ->take_all()
@@ -91,7 +92,7 @@ void add_run_command(CLI::App& app, CommandContext& context) {
   command
       .add_flag("--relax", options->relax,
                 "With --timing-only: what limits? One run with each limit alone taken away, sorted by what "
-                "it gains")
+                "it gains; with --vary at each point")
       ->group("Timing");
   command
       .add_flag("!--no-verdict", options->verdict,

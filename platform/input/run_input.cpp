@@ -63,7 +63,6 @@ void check_timing_only(const RunOptions& options) {
     throw UserError(
         "--relax compares frame rates, and one frame has none: --timing-frames must be at least 2");
   }
-  if (options.relax && !options.vary.empty()) throw UserError("--relax and --vary exclude each other");
   const auto refuse = [](const char* option, bool given) {
     if (given) throw UserError(fmt::format("--timing-only computes no images: it cannot go with {}", option));
   };

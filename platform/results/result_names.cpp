@@ -53,7 +53,9 @@ bool is_trace(const std::string& format, const std::string& name) {
 bool is_planned(const ResultPlan& plan, const std::string& path) {
   const auto [folder, name] = split(path);
   if (!folder.empty()) {
-    if (is_numbered(folder, "point_")) return plan.sweep && name == "timing.json";
+    if (is_numbered(folder, "point_")) {
+      return plan.sweep && (name == "timing.json" || (name == "relaxations.json" && plan.relaxations));
+    }
     return plan.sequence && is_numbered(folder, "frame_") && is_of_frame(plan, name);
   }
   return is_of_run(plan, name) || (!plan.sequence && is_of_frame(plan, name)) ||
