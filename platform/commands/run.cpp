@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <functional>
 #include <memory>
@@ -36,6 +37,12 @@
 
 namespace parallax {
 namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// Trials may take four times as long as the run itself, and a minute in any case.
+constexpr std::chrono::seconds kLeastForTrials{60};
+constexpr int kTrialsForRun = 4;
 
 // One run, from the options to the exit code.
 class Run {
@@ -134,7 +141,7 @@ class Run {
 
   int conclude(const Machine& machine, RunFrames& writer) {
     RunTotals totals = writer.totals();
-    totals.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
+    totals.wall_seconds = std::chrono::duration<double>(Clock::now() - began_).count();
     totals.peak_megabytes = peak_memory_megabytes();
     totals.command = context_.command_line.text();
     if (images_.is_scene()) totals.scene_seed = options_.scene.seed;
@@ -160,6 +167,11 @@ class Run {
   bool judge(MetricGroup& metrics) {
     const EvaluationResult base = measured(metrics);
     if (base.rate == 0) return true;
+    // A page says what all limits gain, whatever time that takes.
+    if (!options_.report) {
+      const Clock::time_point now = Clock::now();
+      trials_->end_at(now + std::max<Clock::duration>(kLeastForTrials, kTrialsForRun * (now - began_)));
+    }
     const Verdict verdict = find_verdict(
         configuration_.machine, base, options_.report ? Thoroughness::kAll : Thoroughness::kUntilCertain,
         [this](const std::vector<Relaxation>& relaxations) { return trials_->try_out(relaxations); });
@@ -175,7 +187,7 @@ class Run {
                              interruption_);
   }
 
-  const std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
+  const Clock::time_point began_ = Clock::now();
   const RunOptions& options_;
   CommandContext& context_;
   Notes notes_;

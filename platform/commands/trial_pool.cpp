@@ -31,7 +31,7 @@ std::vector<EvaluationResult> TrialPool::evaluate(const std::vector<Variant>& va
                                                   const std::function<void()>& done) {
   std::vector<EvaluationResult> results;
   pool_.evaluate(
-      variants, [this] { return interruption_.requested(); },
+      variants, [this] { return interruption_.requested() || std::chrono::steady_clock::now() >= end_; },
       [&](std::size_t, EvaluationResult result) {
         results.push_back(std::move(result));
         done();

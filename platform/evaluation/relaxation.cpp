@@ -167,6 +167,7 @@ std::vector<std::int64_t> fifo_depths(const MachineConfig& config, const MetricG
 }
 
 Relaxation together(const std::vector<Relaxation>& some) {
+  if (some.size() == 1) return some.front();
   const auto has = [&](Relief limit) {
     return std::any_of(some.begin(), some.end(), [limit](const Relaxation& r) {
       return r.fifo.empty() && std::find(r.limits.begin(), r.limits.end(), limit) != r.limits.end();

@@ -57,13 +57,6 @@ RelaxedLimit relaxed_limit(const EvaluationResult& base, const Relaxation& relax
   return limit;
 }
 
-// Of two that gain as much the one that was tried first stays first.
-void RelaxedLimits::add(RelaxedLimit relaxed) {
-  const auto after = std::find_if(alone.begin(), alone.end(),
-                                  [&](const RelaxedLimit& other) { return other.gain < relaxed.gain; });
-  alone.insert(after, std::move(relaxed));
-}
-
 std::string to_text(const RelaxedLimits& limits) {
   std::vector<const RelaxedLimit*> rows;
   for (const RelaxedLimit& limit : limits.alone) rows.push_back(&limit);

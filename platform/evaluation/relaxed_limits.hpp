@@ -40,7 +40,6 @@ struct RelaxedLimits {
 
   /// "host", "core_clock+host", "none".
   std::string limit_name() const { return limit ? limit->relaxation.name : "none"; }
-  void add(RelaxedLimit relaxed);
 };
 
 std::string to_text(const RelaxedLimits& limits);

@@ -4,12 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdint>
-#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include "platform/evaluation/alone_search.hpp"
+#include "platform/evaluation/fifo_search.hpp"
+#include "platform/evaluation/trials.hpp"
 #include "platform/machine/part.hpp"
 #include "platform/results/rate_metrics.hpp"
 
@@ -22,7 +23,7 @@ bool relieves_the_busiest(const Relaxation& relaxation, const EvaluationResult& 
   return std::find(names.begin(), names.end(), relaxation.name) != names.end();
 }
 
-std::string sentence(const EvaluationResult& base, const RelaxedLimits& limits) {
+std::string sentence_of_all(const EvaluationResult& base, const RelaxedLimits& limits) {
   const bool busy = base.limit.part != "none";
   const std::string part = spoken(base.limit.part);
   if (!limits.limit) return "nothing limits alone, and nothing that was tried gains anything together";
@@ -44,124 +45,104 @@ std::string sentence(const EvaluationResult& base, const RelaxedLimits& limits) 
   return text + fmt::format(", then {} limits", spoken(found.next_part));
 }
 
-struct Interrupted {};
+std::string sentence(const EvaluationResult& base, const RelaxedLimits& limits, bool complete) {
+  if (complete) return sentence_of_all(base, limits);
+  if (!limits.limit)
+    return "the time for trials was over before a limit was found; --relax takes the time that it needs";
+  return sentence_of_all(base, limits) +
+         "; the time for trials was over before all others were tried, --relax tries them";
+}
 
 class Search {
  public:
   Search(const MachineConfig& config, const EvaluationResult& base, const Trial& trial)
-      : config_(config), base_(base), trial_(trial) {
+      : config_(config), trials_(base, trial) {
     limits_.frame_rate = base.rate;
     limits_.latency = base.latency.exposure_to_host;
   }
 
   Verdict find(Thoroughness thoroughness) {
+    bool complete = true;
     try {
       search(thoroughness);
-    } catch (const Interrupted&) {
+    } catch (const TrialsEnded&) {
+      complete = false;
+      if (!limits_.limit && !limits_.alone.empty() && limits_.alone.front().gains())
+        limits_.limit = limits_.alone.front();
     }
-    return {sentence(base_, limits_), limits_};
+    return {sentence(trials_.base(), limits_, complete), limits_, complete};
   }
 
  private:
   // Relaxations of the busiest part come first: of two that gain as much these are named.
   void search(Thoroughness thoroughness) {
-    std::vector<Relaxation> all = relaxations(config_, base_.metrics);
-    const auto others = std::stable_partition(
-        all.begin(), all.end(), [this](const Relaxation& r) { return relieves_the_busiest(r, base_); });
-    if (thoroughness == Thoroughness::kAll || others == all.begin()) {
-      try_alone(all);
-    } else if (const std::vector<Relaxation> rest(others, all.end());
-               !gain_most({all.begin(), others}, rest)) {
-      try_alone(rest);
+    all_ = relaxations(config_, trials_.base().metrics);
+    const auto others = std::stable_partition(all_.begin(), all_.end(), [this](const Relaxation& relaxation) {
+      return relieves_the_busiest(relaxation, trials_.base());
+    });
+    AloneSearch alone(trials_, [this](const RelaxedLimit& limit) { add(limit); });
+    if (thoroughness == Thoroughness::kAll) {
+      alone.run(all_, {});
+    } else {
+      alone.run({all_.begin(), others}, {others, all_.end()});
     }
-    if (!limits_.alone.front().gains()) {
-      limits_.limit = fewest(all, kLeastTogether);
+    if (limits_.alone.empty() || !limits_.alone.front().gains()) {
+      limits_.limit = fewest(all_, kLeastTogether);
     } else if (limits_.alone.front().relaxation.name == name_of(Relief::kFifos)) {
-      name_fifos(limits_.alone.front());
+      name_fifos(RelaxedLimit(limits_.alone.front()), thoroughness);
     } else {
       limits_.limit = limits_.alone.front();
     }
   }
 
-  std::vector<RelaxedLimit> measure(const std::vector<Relaxation>& some) {
-    const std::vector<EvaluationResult> results = trial_(some);
-    if (results.size() < some.size()) throw Interrupted();
-    std::vector<RelaxedLimit> measured;
-    for (std::size_t i = 0; i < some.size(); ++i)
-      measured.push_back(relaxed_limit(base_, some[i], results[i]));
-    return measured;
+  std::size_t rank(const RelaxedLimit& limit) const {
+    return static_cast<std::size_t>(
+        std::find_if(all_.begin(), all_.end(),
+                     [&](const Relaxation& one) { return one.name == limit.relaxation.name; }) -
+        all_.begin());
   }
 
-  void try_alone(const std::vector<Relaxation>& some) {
-    for (RelaxedLimit& relaxed : measure(some)) limits_.add(std::move(relaxed));
-  }
-
-  // Tries `own` alone, and all the others at once: none of these gains more alone than together.
-  bool gain_most(std::vector<Relaxation> own, const std::vector<Relaxation>& others) {
-    own.push_back(together(others));
-    std::vector<RelaxedLimit> measured = measure(own);
-    const RelaxedLimit rest = std::move(measured.back());
-    measured.pop_back();
-    for (RelaxedLimit& relaxed : measured) limits_.add(std::move(relaxed));
-    const RelaxedLimit& best = limits_.alone.front();
-    return best.gains() && rest.measured && rest.gain <= best.gain;
+  // Of two that gain as much the one that comes first in all_ stays first, whichever was tried first.
+  void add(const RelaxedLimit& limit) {
+    const auto after =
+        std::find_if(limits_.alone.begin(), limits_.alone.end(), [&](const RelaxedLimit& other) {
+          return other.gain < limit.gain || (other.gain == limit.gain && rank(other) > rank(limit));
+        });
+    limits_.alone.insert(after, limit);
   }
 
   // `all`: what deeper FIFOs gain, all of them. Names the one that does it and the least depth of those tried
   // that is enough, or the fewest.
-  void name_fifos(const RelaxedLimit& all) {
+  void name_fifos(const RelaxedLimit& all, Thoroughness thoroughness) {
     limits_.limit = all;
     const double enough = all.gain - RelaxedLimit::kNoise;
-    const std::vector<Relaxation> fifos = fifo_relaxations(base_.metrics);
-    if (fifos.empty()) return;
-    std::vector<RelaxedLimit> each = measure(fifos);
-    const auto best =
-        std::max_element(each.begin(), each.end(),
-                         [](const RelaxedLimit& a, const RelaxedLimit& b) { return a.gain < b.gain; });
-    if (best->gain >= enough) {
-      *best = shallowest(*best, enough);
-      limits_.limit = *best;
+    const std::vector<Relaxation> fifos = fifo_relaxations(trials_.base().metrics);
+    if (thoroughness == Thoroughness::kAll) trials_.measure(fifos);
+    if (std::optional<RelaxedLimit> one = first_fifo(trials_, fifos, enough)) {
+      limits_.limit = one;
+      limits_.limit = shallowest(trials_, config_, *one, enough);
     } else if (std::optional<RelaxedLimit> several = fewest(fifos, enough)) {
       limits_.limit = std::move(several);
     }
-    for (RelaxedLimit& relaxed : each) {
-      if (relaxed.gains()) limits_.add(std::move(relaxed));
+    for (const Relaxation& fifo : fifos) {
+      const bool named = limits_.limit_name() == fifo.name;
+      const std::optional<RelaxedLimit> tried = named ? limits_.limit : trials_.measured(fifo);
+      if (tried && tried->gains()) add(*tried);
     }
-  }
-
-  // The FIFO with the least depth of those tried with which it gains enough.
-  RelaxedLimit shallowest(const RelaxedLimit& deep, double enough) {
-    const std::string& stream = deep.relaxation.fifo;
-    std::vector<Relaxation> tried;
-    for (const std::int64_t tokens : fifo_depths(config_, base_.metrics, stream))
-      tried.push_back(fifo_relaxation(base_.metrics, stream, tokens));
-    const std::vector<EvaluationResult> results = trial_(tried);
-    if (results.size() < tried.size()) throw Interrupted();
-    RelaxedLimit least = deep;
-    std::int64_t depth = std::numeric_limits<std::int64_t>::max();
-    for (const EvaluationResult& result : results) {
-      if (!result.done()) continue;
-      const std::int64_t tokens = result.metrics.count("streams/" + stream + "/depth");
-      const RelaxedLimit relaxed =
-          relaxed_limit(base_, fifo_relaxation(base_.metrics, stream, tokens), result);
-      if (relaxed.gain < enough || tokens >= depth) continue;
-      least = relaxed;
-      depth = tokens;
-    }
-    return least;
   }
 
   // The fewest of them that together gain `least`, if all do: halves of them are left out, then quarters, as
   // long as enough is left.
   std::optional<RelaxedLimit> fewest(std::vector<Relaxation> some, double least) {
-    RelaxedLimit found = measure({together(some)}).front();
+    if (some.empty()) return std::nullopt;
+    RelaxedLimit found = trials_.measure(together(some));
     if (!found.measured || found.gain < least) return std::nullopt;
     for (std::size_t part = some.size() / 2; part > 0; part /= 2) {
       for (std::size_t i = 0; i < some.size() && some.size() > 1;) {
         std::vector<Relaxation> left(some.begin(), some.begin() + i);
         left.insert(left.end(), some.begin() + std::min(i + part, some.size()), some.end());
         RelaxedLimit without;
-        if (!left.empty()) without = measure({together(left)}).front();
+        if (!left.empty()) without = trials_.measure(together(left));
         if (without.measured && without.gain >= least) {
           some = std::move(left);
           found = std::move(without);
@@ -176,8 +157,8 @@ class Search {
   static constexpr double kLeastTogether = 1;  // %
 
   const MachineConfig& config_;
-  const EvaluationResult& base_;
-  const Trial& trial_;
+  Trials trials_;
+  std::vector<Relaxation> all_;
   RelaxedLimits limits_;
 };
 

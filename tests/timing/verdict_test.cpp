@@ -34,12 +34,16 @@ class Subject {
         base_(try_out({{}}).front()) {}
 
   const EvaluationResult& base() const { return base_; }
-  Verdict verdict(Thoroughness thoroughness) {
+  /// After `most` evaluations there are no more.
+  Verdict verdict(Thoroughness thoroughness, std::size_t most = 1000) {
     evaluations_ = 0;
-    return find_verdict(config_, base_, thoroughness, [this](const std::vector<Relaxation>& some) {
-      evaluations_ += some.size();
+    return find_verdict(config_, base_, thoroughness, [this, most](const std::vector<Relaxation>& some) {
       std::vector<Variant> variants;
-      for (const Relaxation& relaxation : some) variants.push_back({relaxation.assignments});
+      for (const Relaxation& relaxation : some) {
+        if (evaluations_ == most) break;
+        ++evaluations_;
+        variants.push_back({relaxation.assignments});
+      }
       return try_out(variants);
     });
   }
@@ -113,8 +117,47 @@ TEST(Verdict, NamesTheFifoAndADepthThatIsEnough) {
     EXPECT_NE(verdict.sentence.find("; a depth of 16 gives "), std::string::npos) << verdict.sentence;
     EXPECT_EQ(verdict.limits.limit->relaxation.assignments,
               std::vector<std::string>{"streams.costs_uniqueness.depth=16"});
-    EXPECT_LE(subject.evaluations(), 40U);
+    EXPECT_LE(subject.evaluations(), thoroughness == Thoroughness::kAll ? 40U : 20U);
   }
+}
+
+// Of the fifteen limits of this machine few have to be tried.
+TEST(Verdict, FindsPathCostsInMemoryWithFewRuns) {
+  Subject subject(64, 48, small({"matching.path_storage=memory"}));
+  const Verdict quick = subject.verdict(Thoroughness::kUntilCertain);
+  EXPECT_EQ(quick.limits.limit_name(), "path_storage") << quick.sentence;
+  EXPECT_LE(subject.evaluations(), 10U);
+  const Verdict all = subject.verdict(Thoroughness::kAll);
+  EXPECT_EQ(all.limits.limit_name(), "path_storage") << all.sentence;
+  EXPECT_EQ(quick.sentence, all.sentence);
+}
+
+// However few trials there may be, the sentence names the best of them, and says that there were no more.
+TEST(Verdict, SaysThatNotAllCouldBeTried) {
+  Subject subject(64, 48, small({"streams.costs_uniqueness.depth=2"}));
+  const Verdict whole = subject.verdict(Thoroughness::kUntilCertain);
+  const std::size_t needed = subject.evaluations();
+  EXPECT_TRUE(whole.complete);
+  EXPECT_EQ(whole.sentence.find("--relax"), std::string::npos) << whole.sentence;
+  double before = 0;
+  for (std::size_t most = 0; most < needed; ++most) {
+    const Verdict verdict = subject.verdict(Thoroughness::kUntilCertain, most);
+    EXPECT_FALSE(verdict.complete) << most;
+    if (verdict.limits.limit) {
+      EXPECT_NE(
+          verdict.sentence.find("; the time for trials was over before all others were tried, --relax "),
+          std::string::npos)
+          << verdict.sentence;
+      EXPECT_GE(verdict.limits.limit->gain, before - 1) << verdict.sentence;
+      before = verdict.limits.limit->gain;
+    } else {
+      EXPECT_EQ(
+          verdict.sentence,
+          "the time for trials was over before a limit was found; --relax takes the time that it needs");
+      EXPECT_EQ(before, 0) << most;
+    }
+  }
+  EXPECT_NEAR(before, whole.limits.limit->gain, 1);
 }
 
 TEST(Verdict, NamesTwoFifosThatHoldTogether) {
