@@ -133,8 +133,7 @@ void Memory::b_transport(int id, ::tlm::tlm_generic_payload& payload, sc_core::s
 }
 
 void Memory::enqueue(std::size_t id, const MemoryRequest& request) {
-  const bool first = queues_.empty(id);
-  queues_.push(id, request);
+  const bool first = queues_.push(id, request);
   // Its answer comes after those before it in the queue, and after its arrival.
   if (first && request.arrival < wake_date_) wake_in_time();
 }

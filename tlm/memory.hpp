@@ -44,6 +44,11 @@ struct MemoryPortStatistics {
 ///
 /// TLM-2.0 target, base protocol: b_transport, the four phases of nb_transport, transport_dbg; no DMI, no
 /// byte enables. A port is one binding of the socket, in the order of binding.
+///
+/// The date of a call is the kernel's time with the delay that is passed. Blocking calls of one port are
+/// served in the order of their dates, those of one date in that of the calls, so threads that share a port
+/// may run ahead of the kernel (temporal decoupling) by different times. A blocking call returns at the date
+/// of its answer with a delay of zero: it waits, as what others ask for until then has a share in that date.
 class Memory : public sc_core::sc_module, private MemoryService {
  public:
   tlm_utils::multi_passthrough_target_socket<Memory> socket{"socket"};

@@ -59,15 +59,21 @@ class MemoryQueues {
   /// Dates at which the first request of each queue has arrived or will, or kNever.
   const std::vector<Picoseconds>& arrivals() const { return arrivals_; }
 
-  /// Blocking callers are not held back by a full queue.
-  void push(std::size_t port, const MemoryRequest& request) {
+  /// Blocking callers are not held back by a full queue. One whose date is ahead of the kernel's time makes
+  /// way for blocking calls that come later with an earlier date: none of them has been decided about.
+  /// Says whether the request is the first of its queue now.
+  bool push(std::size_t port, const MemoryRequest& request) {
     Ring<MemoryRequest>& queue = ports_[port].queue;
-    if (queue.empty()) arrivals_[port] = request.arrival;
     MemoryRequest& last = queue.add();
     last.payload = request.payload;
     last.arrival = request.arrival;
     last.blocking = request.blocking;
     ++waiting_;
+    std::size_t place = queue.size() - 1;
+    for (; request.blocking != nullptr && place > 0 && queue[place - 1].arrival > request.arrival; --place)
+      std::swap(queue[place - 1], queue[place]);
+    if (place == 0) arrivals_[port] = request.arrival;
+    return place == 0;
   }
   /// The queue has no room, and no other request is refused.
   void refuse(std::size_t port, const MemoryRequest& request) {
