@@ -3,15 +3,9 @@
 
 #include <algorithm>
 
-namespace parallax {
+#include "platform/input/quoted_text.hpp"
 
-std::string shell_word(const std::string& word) {
-  constexpr const char* kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./,:@%";
-  if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
-  std::string quoted = "'";
-  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + '\'';
-}
+namespace parallax {
 
 CommandLine::CommandLine(int argc, const char* const* argv) : words_(argv + std::min(1, argc), argv + argc) {}
 

@@ -6,9 +6,6 @@
 
 namespace parallax {
 
-/// A word, quoted for a shell where need be.
-std::string shell_word(const std::string& word);
-
 /// The command line as typed.
 class CommandLine {
  public:

@@ -44,15 +44,22 @@ void add_run_command(CLI::App& app, CommandContext& context) {
       ->type_name("COUNT")
       ->group("Input");
   command
-      .add_option(
-          "--ground-truth", options->ground_truth,
-          "True disparities of a pair: PNG or TIFF of 8 or 16 bits, float TIFF, PFM or NPY; 0 = unknown")
+      .add_option("--ground-truth", options->ground_truth,
+                  "True disparities of a pair: PNG or TIFF of 8 or 16 bits, float TIFF, PFM, NPY or NPZ "
+                  "(FILE.npz:NAME where it holds several arrays); 0 = unknown")
       ->type_name("FILE")
       ->group("Input");
   command
       .add_option("--ground-truth-scale", options->ground_truth_scale,
                   "True disparity = value / this; if not given, 256 for 16-bit integers and 1 for others")
       ->type_name("NUMBER")
+      ->group("Input");
+  command
+      .add_option(
+          "--ground-truth-encoding", options->ground_truth_encoding,
+          "How an image holds them: values, or sintel, 8-bit colours with 4 R + G / 64 + B / 16384 px; "
+          "values if not given")
+      ->type_name("NAME")
       ->group("Input");
   command.add_option("--mask", options->mask, "Pixels to score: 8-bit PNG, 255 = score")
       ->type_name("FILE")

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "platform/input/image_pairs.hpp"
+#include "platform/results/truth_array.hpp"
 
 namespace parallax {
 namespace {
@@ -15,7 +16,7 @@ std::vector<NamedInput> inputs_of(const RunOptions& options) {
   };
   add("--left", options.left);
   add("--right", options.right);
-  add("--ground-truth", options.ground_truth);
+  add("--ground-truth", truth_path(options.ground_truth).file);
   add("--mask", options.mask);
   add("--map", options.map);
   add("--input", options.input);

@@ -2,6 +2,7 @@
 #include "platform/input/folder_pairs.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <map>
@@ -11,8 +12,11 @@
 #include <utility>
 
 #include "platform/input/folder_layouts.hpp"
+#include "platform/input/folder_scenes.hpp"
 #include "platform/input/image_names.hpp"
 #include "platform/input/letters.hpp"
+#include "platform/input/partner_names.hpp"
+#include "platform/input/quoted_text.hpp"
 #include "tlm/error.hpp"
 
 namespace parallax {
@@ -79,17 +83,23 @@ std::optional<Replaced> replaced(Kind kind, bool any_case, const std::string& na
 Match match_names(const fs::path& folder, const std::vector<std::string>& names, const FolderLayout& layout) {
   Match match;
   match.strength = layout.strength;
-  // Names that compare without regard to case find a partner in any spelling.
-  const auto key = [&](const std::string& name) { return layout.any_case ? lower(name) : name; };
-  std::map<std::string, std::string> by_key;
-  for (const std::string& name : names) by_key.emplace(key(name), name);
+  const PartnerNames candidates(names, layout.any_case);
   std::set<std::string> paired;
-  for (const std::string& name : names) {
-    const auto right = replaced(layout.kind, layout.any_case, name, layout.left, layout.right);
-    const auto found = right ? by_key.find(key(right->name)) : by_key.end();
-    if (found == by_key.end()) continue;
-    match.pairs.push_back({folder / name, folder / found->second});
-    paired.insert({name, found->second});
+  std::vector<std::optional<std::string>> partners(names.size());
+  const auto pair = [&](bool other_format) {
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      if (other_format && paired.count(names[i]) > 0) continue;
+      const auto right = replaced(layout.kind, layout.any_case, names[i], layout.left, layout.right);
+      if (!right) continue;
+      partners[i] =
+          other_format ? candidates.of_other_format(right->name, paired) : candidates.named(right->name);
+      if (partners[i]) paired.insert({names[i], *partners[i]});
+    }
+  };
+  pair(false);
+  pair(true);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (partners[i]) match.pairs.push_back({folder / names[i], folder / *partners[i]});
   }
   for (const std::string& name : names) {
     if (paired.count(name) > 0) continue;
@@ -120,8 +130,7 @@ Match match_folders(const fs::path& folder, const fs::path& left, const fs::path
   const std::vector<std::string> lefts = image_names_below(folder / left);
   const std::vector<std::string> rights = image_names_below(folder / right);
   const auto tokens = name_tokens(left, right);
-  std::map<std::string, std::string> by_key;
-  for (const std::string& name : rights) by_key.emplace(lower(name), name);
+  const PartnerNames candidates(rights, true);
   Match match;
   match.strength = strength;
   std::set<std::string> paired;
@@ -132,24 +141,34 @@ Match match_folders(const fs::path& folder, const fs::path& left, const fs::path
     const auto with = replaced(Kind::kAnywhere, true, name, to_left ? r : l, to_left ? l : r);
     return with ? with->name : name;
   };
-  std::vector<std::string> alone;
-  for (const std::string& name : lefts) {
-    std::optional<std::size_t> token;
-    auto found = by_key.find(lower(name));
-    for (std::size_t t = 0; t < tokens.size() && found == by_key.end(); ++t) {
-      token = t;
-      found = by_key.find(lower(other(name, t, false)));
+  std::vector<std::optional<std::string>> partners(lefts.size());
+  const auto pair = [&](bool other_format) {
+    for (std::size_t i = 0; i < lefts.size(); ++i) {
+      if (partners[i]) continue;
+      const auto find = [&](std::optional<std::size_t> token) {
+        const std::string wanted = other(lefts[i], token, false);
+        return other_format ? candidates.of_other_format(wanted, paired) : candidates.named(wanted);
+      };
+      std::optional<std::size_t> token;
+      partners[i] = find(token);
+      for (std::size_t t = 0; t < tokens.size() && !partners[i]; ++t) {
+        token = t;
+        partners[i] = find(token);
+      }
+      if (!partners[i]) continue;
+      if (token) usual = token;
+      paired.insert(*partners[i]);
     }
-    if (found == by_key.end()) {
-      alone.push_back(name);
-      continue;
+  };
+  pair(false);
+  pair(true);
+  for (std::size_t i = 0; i < lefts.size(); ++i) {
+    if (partners[i]) {
+      match.pairs.push_back({folder / left / lefts[i], folder / right / *partners[i]});
+    } else {
+      match.lonely.push_back({"left", left / lefts[i], right / other(lefts[i], usual, false)});
     }
-    if (token) usual = token;
-    match.pairs.push_back({folder / left / name, folder / right / found->second});
-    paired.insert(found->second);
   }
-  for (const std::string& name : alone)
-    match.lonely.push_back({"left", left / name, right / other(name, usual, false)});
   for (const std::string& name : rights) {
     if (paired.count(name) == 0)
       match.lonely.push_back({"right", right / name, left / other(name, usual, true)});
@@ -213,9 +232,14 @@ bool better(const Match& a, const Match& b) {
                               more == 0 ? "" : fmt::format(", and {} more have none", more)));
 }
 
-}  // namespace
+// The pairs of the best layout that leaves no image without its partner, none where there is none; or the
+// match that misses a frame.
+struct Found {
+  std::vector<ImagePair> pairs;
+  std::optional<Match> incomplete;
+};
 
-std::vector<ImagePair> pairs_of_folder(const fs::path& folder) {
+Found best_pairs(const fs::path& folder) {
   std::vector<Match> matches = all_matches(folder);
   // The first of equals stays the first.
   std::stable_sort(matches.begin(), matches.end(), better);
@@ -225,9 +249,32 @@ std::vector<ImagePair> pairs_of_folder(const fs::path& folder) {
     const bool frame_is_missing =
         best != nullptr ? match.strength <= best->strength && match.pairs.size() > best->pairs.size()
                         : match.strength != Strength::kLetter || !match.pairs.empty();
-    if (frame_is_missing) refuse(folder, match);
+    if (frame_is_missing) return {{}, match};
   }
-  if (best != nullptr) return best->pairs;
+  return {best != nullptr ? best->pairs : std::vector<ImagePair>(), std::nullopt};
+}
+
+std::string scenes_text(const fs::path& folder, const std::vector<std::string>& scenes) {
+  constexpr std::size_t kMostNames = 8;
+  const std::size_t shown = std::min(kMostNames, scenes.size());
+  const auto end = scenes.begin() + static_cast<std::ptrdiff_t>(shown);
+  return fmt::format(
+      "{} holds no stereo pair itself, but {} below: {}{}; to run one: parallax run --input {}",
+      folder.string(), scenes.size() == 1 ? "a scene" : fmt::format("{} scenes", scenes.size()),
+      fmt::join(scenes.begin(), end, ", "),
+      scenes.size() == shown ? "" : fmt::format(" and {} more", scenes.size() - shown),
+      shell_word((folder / scenes.front()).string()));
+}
+
+}  // namespace
+
+std::vector<ImagePair> pairs_of_folder(const fs::path& folder) {
+  Found found = best_pairs(folder);
+  if (found.incomplete) refuse(folder, *found.incomplete);
+  if (!found.pairs.empty()) return found.pairs;
+  const std::vector<std::string> scenes =
+      folder_scenes(folder, [](const fs::path& below) { return !best_pairs(below).pairs.empty(); });
+  if (!scenes.empty()) throw UserError(scenes_text(folder, scenes));
   throw UserError(
       fmt::format("{} holds no stereo pair; looked for {}; or give a list file, two paths a line: left right",
                   folder.string(), folder_layouts_text()));

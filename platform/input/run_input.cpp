@@ -133,6 +133,11 @@ void check_options(const RunOptions& options) {
   if (!options.mask.empty() && options.ground_truth.empty()) throw UserError("--mask needs --ground-truth");
   if (options.ground_truth_scale && options.ground_truth.empty())
     throw UserError("--ground-truth-scale needs --ground-truth");
+  if (!options.ground_truth_encoding.empty() && options.ground_truth.empty())
+    throw UserError("--ground-truth-encoding needs --ground-truth");
+  if (truth_encoding(options.ground_truth_encoding) != TruthEncoding::kValues && options.ground_truth_scale)
+    throw UserError(
+        "--ground-truth-encoding sintel and --ground-truth-scale exclude each other: Sintel's are in pixels");
   if (options.image_bits && (*options.image_bits < 8 || *options.image_bits > 16))
     throw UserError(fmt::format("--image-bits is {}, allowed is 8 to 16", *options.image_bits));
   if (options.fit && options.calibration.empty()) throw UserError("--fit needs --calibration");
@@ -166,7 +171,9 @@ std::unique_ptr<FrameSource> open_source(const RunOptions& options, const Machin
   choice.bits = options.image_bits;
   choice.first_only = options.timing_only;
   auto source = file_source(std::move(pairs), choice,
-                            {options.ground_truth, options.mask, options.ground_truth_scale}, notice);
+                            {options.ground_truth, options.mask, options.ground_truth_scale,
+                             truth_encoding(options.ground_truth_encoding)},
+                            notice);
   const auto demand = [&](const char* key, int wanted, int found) {
     if (wanted != 0 && wanted != found) {
       throw UserError(fmt::format("{} = {}, but {} has {} px; 0 takes it from the images", key, wanted,

@@ -28,6 +28,7 @@ struct RunOptions {
   std::optional<int> image_bits;              ///< of the values in 16-bit images; none: by the largest
   std::string ground_truth;
   std::optional<double> ground_truth_scale;  ///< disparity = value / scale; none: by the pixel format
+  std::string ground_truth_encoding;         ///< "sintel"; empty: values
   std::string mask;
   // Rectification.
   std::vector<std::string> calibration;

@@ -11,6 +11,8 @@
 #include "platform/images/image_file.hpp"
 #include "platform/images/npy_file.hpp"
 #include "platform/images/pfm_file.hpp"
+#include "platform/images/zip_archive.hpp"
+#include "platform/results/truth_array.hpp"
 #include "tlm/error.hpp"
 
 namespace parallax {
@@ -19,10 +21,13 @@ namespace {
 constexpr const char* kTruthFile = "ground truth";
 constexpr const char* kMaskFile = "ground-truth mask";
 
+using Notice = std::function<void(const std::string&)>;
+
 // What a file holds, one channel of any depth.
 struct TruthValues {
   cv::Mat image;
   double unused_scale = 1;  // of the header of a float map
+  bool in_pixels = false;   // by its encoding
 };
 
 SizeCheck same_size(const std::string& path, const std::string& what, int width, int height) {
@@ -61,30 +66,65 @@ std::vector<std::uint8_t> bytes_of(const std::string& path, std::size_t most) {
   return bytes;
 }
 
-// `most`: bytes that a file of the right size has, and more.
-TruthValues read_truth_values(const std::string& path, std::size_t most, const SizeCheck& check) {
-  require_image_file(path, kTruthFile);
-  constexpr std::size_t kHead = 8;
-  std::vector<std::uint8_t> head = bytes_of(path, kHead);
-  head.resize(kHead);
-  if (is_pfm(head)) {
-    const PfmImage map = read_pfm(bytes_of(path, most), path, check);
-    return {map.values, map.scale};
-  }
-  if (is_npy(head)) return {read_npy(bytes_of(path, most), path, check)};
-  if (head[0] == 'P' && head[1] == 'K') {
-    throw UserError(fmt::format("{}: an archive (.npz); the {} must be one array, as numpy.save writes it",
-                                path, kTruthFile));
-  }
+// JPEG keeps what an eye sees, not values.
+bool is_jpeg(const std::vector<std::uint8_t>& head) { return head[0] == 0xFF && head[1] == 0xD8; }
+
+[[noreturn]] void refuse_colours(const std::string& path, const cv::Mat& image) {
+  throw UserError(fmt::format(
+      "{}: the {} is {} that differ: a picture of a disparity map in colours, as it looks, does not hold its "
+      "values; expected 1 channel (or equal ones) of 8 or 16 bits or of floating point, disparity * "
+      "scale{}",
+      path, kTruthFile, format_text(image),
+      image.depth() == CV_8U ? "; for values packed into colours as Sintel has them: --ground-truth-encoding "
+                               "sintel"
+                             : ""));
+}
+
+TruthValues read_truth_image(const std::string& path, TruthEncoding encoding, const SizeCheck& check) {
   const cv::Mat image = read_image_file(path, kTruthFile, check);
-  const cv::Mat values = grey(image);
+  if (encoding == TruthEncoding::kSintel) return {decode_sintel(image, path), 1, true};
   const int depth = image.depth();
-  if (values.empty() || (depth != CV_8U && depth != CV_16U && depth != CV_32F && depth != CV_64F)) {
+  const bool possible = depth == CV_8U || depth == CV_16U || depth == CV_32F || depth == CV_64F;
+  const cv::Mat values = grey(image);
+  if (values.empty() && possible) refuse_colours(path, image);
+  if (!possible) {
     throw UserError(fmt::format(
         "{}: the {} is {}, it must have 1 channel of 8 or 16 bits or of floating point (disparity * scale)",
         path, kTruthFile, format_text(image)));
   }
   return {values};
+}
+
+// `most`: bytes that a file of the right size has, and more.
+TruthValues read_truth_values(const TruthFiles& files, std::size_t most, const SizeCheck& check,
+                              const Notice& notice) {
+  const TruthPath where = truth_path(files.truth);
+  const std::string& path = where.file;
+  require_image_file(path, kTruthFile);
+  constexpr std::size_t kHead = 8;
+  std::vector<std::uint8_t> head = bytes_of(path, kHead);
+  head.resize(kHead);
+  const bool archive = ZipArchive::begins(head);
+  if (!archive && !where.array.empty()) {
+    throw UserError(
+        fmt::format("{}: no archive (.npz) that could hold an array {}", path, excerpt(where.array)));
+  }
+  const bool map = is_pfm(head), array = archive || is_npy(head);
+  if ((map || array) && files.encoding != TruthEncoding::kValues) {
+    throw UserError(fmt::format("{}: --ground-truth-encoding is for images, this is {}", path,
+                                map ? "a float map" : "of NumPy"));
+  }
+  if (map) {
+    const PfmImage pfm = read_pfm(bytes_of(path, most), path, check);
+    return {pfm.values, pfm.scale};
+  }
+  if (array)
+    return {read_npy(archive ? truth_array(where, most, notice) : bytes_of(path, most), files.truth, check)};
+  if (is_jpeg(head) && notice) {
+    notice(
+        fmt::format("ground truth {}: JPEG changes values a little; PNG, TIFF, PFM and NPY keep them", path));
+  }
+  return read_truth_image(path, files.encoding, check);
 }
 
 cv::Mat read_mask(const std::string& path, const SizeCheck& check) {
@@ -97,8 +137,7 @@ cv::Mat read_mask(const std::string& path, const SizeCheck& check) {
   return mask;
 }
 
-double scale_of(const TruthFiles& files, const TruthValues& values,
-                const std::function<void(const std::string&)>& notice) {
+double scale_of(const TruthFiles& files, const TruthValues& values, const Notice& notice) {
   if (values.unused_scale != 1 && notice) {
     notice(
         fmt::format("ground truth {}: the size of the scale in its header, {:g}, is not applied: data sets "
@@ -106,6 +145,7 @@ double scale_of(const TruthFiles& files, const TruthValues& values,
                     files.truth, values.unused_scale));
   }
   if (files.scale) return *files.scale;
+  if (values.in_pixels) return 1;
   const int depth = values.image.depth();
   constexpr double kKitti = 256;
   const double assumed = depth == CV_16U ? kKitti : 1;
@@ -134,15 +174,14 @@ std::vector<float> disparities(const cv::Mat& values, double scale) {
 
 }  // namespace
 
-GroundTruth read_ground_truth(const TruthFiles& files, int width, int height,
-                              const std::function<void(const std::string&)>& notice) {
+GroundTruth read_ground_truth(const TruthFiles& files, int width, int height, const Notice& notice) {
   if (files.scale && !(*files.scale > 0 && std::isfinite(*files.scale)))
     throw UserError(fmt::format("--ground-truth-scale is {}, allowed is a number above 0", *files.scale));
   constexpr std::size_t kLargestSample = 8, kLongestHeader = 1 << 16;
   const std::size_t most =
       kLargestSample * static_cast<std::size_t>(width) * static_cast<std::size_t>(height) + kLongestHeader;
   const TruthValues values =
-      read_truth_values(files.truth, most, same_size(files.truth, kTruthFile, width, height));
+      read_truth_values(files, most, same_size(files.truth, kTruthFile, width, height), notice);
   const double scale = scale_of(files, values, notice);
   GroundTruth result{width, height, disparities(values.image, scale), {}, scale};
   if (!files.mask.empty()) {

@@ -219,6 +219,12 @@ TEST_F(BadInput, GroundTruth) {
   EXPECT_EQ(pair_error("--ground-truth truth.png --ground-truth-scale 0"),
             "--ground-truth-scale is 0, allowed is a number above 0");
   EXPECT_EQ(pair_error("--ground-truth-scale 4"), "--ground-truth-scale needs --ground-truth");
+  EXPECT_EQ(pair_error("--ground-truth-encoding sintel"), "--ground-truth-encoding needs --ground-truth");
+  EXPECT_EQ(pair_error("--ground-truth colour.png --ground-truth-encoding packed"),
+            "--ground-truth-encoding is 'packed', expected values or sintel");
+  EXPECT_EQ(pair_error("--ground-truth colour.png --ground-truth-encoding sintel --ground-truth-scale 4"),
+            "--ground-truth-encoding sintel and --ground-truth-scale exclude each other: Sintel's are in "
+            "pixels");
   // A damaged header.
   for (const auto& [name, at] : {std::pair("truth.png", 24), {"mask.png", 24}}) {
     std::string bytes = program_.read(name);

@@ -13,6 +13,7 @@
 #include "platform/images/image_codecs.hpp"
 #include "tests/cli/program.hpp"
 #include "tests/paths.hpp"
+#include "tests/platform/zip_bytes.hpp"
 
 namespace parallax::test {
 
@@ -92,14 +93,19 @@ inline std::vector<std::string> image_seeds() {
           text_of(encode_image(".bmp", picture(CV_8UC3)))};
 }
 
-// 16x8 floats as a portable float map and as an array of NumPy, both little-endian.
+// 16x8 floats as a portable float map and as an array of NumPy, both little-endian, also in an archive.
 inline std::vector<std::string> truth_seeds() {
   const cv::Mat image = picture(CV_32FC1);
   const std::string values(reinterpret_cast<const char*>(image.data), image.total() * image.elemSize());
   const std::string layout = "{'descr': '<f4', 'fortran_order': False, 'shape': (8, 16), }\n";
-  return {text_of(encode_image(".png", picture(CV_16UC1))), text_of(encode_image(".png", picture(CV_8UC1))),
-          text_of(encode_image(".tif", image)), "Pf\n16 8\n-1.0\n" + values,
-          std::string("\x93NUMPY\x01") + '\0' + static_cast<char>(layout.size()) + '\0' + layout + values};
+  const std::string array =
+      std::string("\x93NUMPY\x01") + '\0' + static_cast<char>(layout.size()) + '\0' + layout + values;
+  return {text_of(encode_image(".png", picture(CV_16UC1))),
+          text_of(encode_image(".png", picture(CV_8UC1))),
+          text_of(encode_image(".tif", image)),
+          "Pf\n16 8\n-1.0\n" + values,
+          array,
+          zip_of({{"disp.npy", array}, {"mask.npy", array}})};
 }
 
 inline std::vector<std::string> trace_seeds() {

@@ -196,6 +196,19 @@ TEST(FolderPairs, LayoutsOfDataSets) {
       {"truth beside the images of the same side",
        {"1_left.jpg", "1_right.jpg", "1_left.disp.png", "1_right.disp.png"},
        {"1_left.jpg 1_right.jpg"}},
+      {"two formats", {"left.png", "right.jpg"}, {"left.png right.jpg"}},
+      {"two formats, in order",
+       {"left_1.png", "right_1.png", "left_2.png", "right_2.JPG", "left_3.png", "right_3.png"},
+       {"left_1.png right_1.png", "left_2.png right_2.JPG", "left_3.png right_3.png"}},
+      {"the same format first",
+       {"left.png", "right.jpg", "right.png", "left.jpg"},
+       {"left.jpg right.jpg", "left.png right.png"}},
+      {"folders of two formats",
+       {"image_2/000000_10.png", "image_3/000000_10.jpg"},
+       {"image_2/000000_10.png image_3/000000_10.jpg"}},
+      {"folders of two formats with sides in the names",
+       {"left/a/left_01.bmp", "right/a/right_01.jpg", "left/a/left_02.bmp", "right/a/right_02.bmp"},
+       {"left/a/left_01.bmp right/a/right_01.jpg", "left/a/left_02.bmp right/a/right_02.bmp"}},
       {"half written", {"left.png", "right.png", ".left_2.png"}, {"left.png right.png"}},
   };
   for (const FolderCase& c : cases) {
@@ -240,6 +253,9 @@ TEST(FolderPairs, AFrameThatLacksOneSide) {
   EXPECT_EQ(error_of_files({"im0.png", "im1L.png"}), ": the left image im0.png has no partner im1.png");
   EXPECT_EQ(error_of_files({"cam0/data/1.png", "cam1/data/2.png"}),
             ": the left image cam0/data/1.png has no partner cam1/data/1.png, and 1 more have none");
+  EXPECT_EQ(error_of_files({"left.png", "right.jpg", "right.bmp"}),
+            ": the left image left.png has no partner right.png, and 2 more have none")
+      << "either may be";
   // A pair of another layout does not hide it.
   EXPECT_EQ(error_of_files({"left/1.png", "left/2.png", "left/3.png", "right/1.png", "right/3.png", "a_l.png",
                             "a_r.png"}),
@@ -260,6 +276,34 @@ TEST(FolderPairs, NothingFits) {
   }
   EXPECT_EQ(error_line<UserError>([] { pairs_of_folder("/no/such/place"); }),
             "cannot read the folder /no/such/place: No such file or directory");
+}
+
+TEST(FolderPairs, ScenesBelowAreNamed) {
+  const TemporaryFolder folder;
+  make(folder, {"teddy/im2.png", "teddy/im6.png", "cones/im2.png", "cones/im6.png", "cones/below/left.png",
+                "cones/below/right.png", "drives/1/image_00/data/1.png", "drives/1/image_01/data/1.png",
+                "odd/left.png", "notes/a.txt", "a/b/c/d/left.png", "a/b/c/d/right.png"});
+  const std::string path = folder.path().string();
+  EXPECT_EQ(error_line<UserError>([&] { pairs_of_folder(folder.path()); }),
+            path +
+                " holds no stereo pair itself, but 3 scenes below: cones, drives/1, teddy; to run one: "
+                "parallax run --input " +
+                path + "/cones");
+  EXPECT_EQ(pairs_of_folder(folder.path() / "drives/1").size(), 1u);
+  const TemporaryFolder one;
+  make(one, {"it's one/left.png", "it's one/right.png"});
+  EXPECT_EQ(error_line<UserError>([&] { pairs_of_folder(one.path()); }),
+            one.path().string() +
+                " holds no stereo pair itself, but a scene below: it's one; to run one: "
+                "parallax run --input '" +
+                one.path().string() + "/it'\\''s one'");
+  const TemporaryFolder many;
+  for (int i = 0; i < 12; ++i)
+    make(many, {std::to_string(i) + "/left.png", std::to_string(i) + "/right.png"});
+  EXPECT_NE(error_line<UserError>([&] {
+              pairs_of_folder(many.path());
+            }).find("12 scenes below: 0, 1, 2, 3, 4, 5, 6, 7 and 4 more; to run one"),
+            std::string::npos);
 }
 
 TEST(FolderPairs, ACircleOfLinksEnds) {

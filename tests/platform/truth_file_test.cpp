@@ -197,8 +197,7 @@ TEST_F(TruthFile, NumPyArraysThatAreNone) {
   EXPECT_EQ(error("\x93NUMPY\x01"), "a.npy: a NumPy array with a damaged header: it ends there");
   const std::string whole = npy(1, "<f4", false, "(3, 4)", "");
   EXPECT_EQ(error(whole.substr(0, 30)), "a.npy: a NumPy array with a damaged header: it ends there");
-  EXPECT_EQ(error("PK\x03\x04 and so on"),
-            "a.npy: an archive (.npz); the ground truth must be one array, as numpy.save writes it");
+  EXPECT_EQ(error("PK\x03\x04 and so on"), "a.npy: a damaged archive: it has no directory at its end");
 }
 
 TEST_F(TruthFile, ImagesOfIntegers) {
@@ -245,6 +244,46 @@ TEST_F(TruthFile, ImagesOfFloatingPoint) {
   cv::Mat doubles;
   values.convertTo(doubles, CV_64F);
   EXPECT_EQ(read(image("b.tif", doubles)).disparity, expected);
+}
+
+TEST_F(TruthFile, ColoursThatHoldValuesAsSintelPacksThem) {
+  // B, G, R: 4 * 200 + 48 / 64 + 0; 0 + 255 / 64 + 1 / 16384; 4; unknown.
+  cv::Mat packed(3, 4, CV_8UC3, cv::Scalar(0, 0, 0));
+  packed.at<cv::Vec3b>(0, 0) = {0, 48, 200};
+  packed.at<cv::Vec3b>(0, 1) = {1, 255, 0};
+  packed.at<cv::Vec3b>(2, 3) = {0, 0, 1};
+  Floats expected(12, 0.F);
+  expected[0] = 800.75F;
+  expected[1] = 3.984375F + 1.F / 16384;
+  expected[11] = 4;
+  const auto sintel = [&](const std::string& path) {
+    notices_.clear();
+    return read_ground_truth({path, "", {}, TruthEncoding::kSintel}, 4, 3,
+                             [this](const std::string& line) { notices_.push_back(line); });
+  };
+  EXPECT_EQ(sintel(image("a.png", packed)).disparity, expected);
+  EXPECT_TRUE(notices_.empty()) << "nothing was assumed";
+  const std::string grey = image("grey.png", cv::Mat(3, 4, CV_16UC1, cv::Scalar(256)));
+  EXPECT_EQ(error_of([&] { sintel(grey); }),
+            grey +
+                ": --ground-truth-encoding sintel is for colour images of 8 bits, this one has 1 channel of "
+                "16 bits");
+  const std::string map = write("a.pfm", pfm("Pf\n4 3\n-1.0\n", false));
+  EXPECT_EQ(error_of([&] { sintel(map); }),
+            map + ": --ground-truth-encoding is for images, this is a float map");
+  EXPECT_EQ(truth_encoding(""), TruthEncoding::kValues);
+  EXPECT_EQ(truth_encoding("values"), TruthEncoding::kValues);
+  EXPECT_EQ(truth_encoding("sintel"), TruthEncoding::kSintel);
+  EXPECT_EQ(error_of([] { truth_encoding("kitti"); }),
+            "--ground-truth-encoding is 'kitti', expected values or sintel");
+}
+
+TEST_F(TruthFile, JpegIsSaidToChangeValues) {
+  const std::string file = image("a.jpg", cv::Mat(3, 4, CV_8UC1, cv::Scalar(66)));
+  EXPECT_EQ(read(file, 1.0).disparity, Floats(12, 66.F));
+  EXPECT_EQ(notices_, (std::vector<std::string>{"ground truth " + file +
+                                                ": JPEG changes values a little; PNG, TIFF, PFM and NPY keep "
+                                                "them"}));
 }
 
 TEST_F(TruthFile, Masks) {
@@ -297,8 +336,16 @@ TEST_F(TruthFile, FilesThatAreNone) {
   image("colour.png", cv::Mat(3, 4, CV_16UC3, cv::Scalar(7, 8, 9)));
   EXPECT_EQ(
       complaint("colour.png"),
-      "colour.png: the ground truth is 16 bit with 3 channels, it must have 1 channel of 8 or 16 bits or of "
-      "floating point (disparity * scale)");
+      "colour.png: the ground truth is 16 bit with 3 channels that differ: a picture of a disparity map in "
+      "colours, as it looks, does not hold its values; expected 1 channel (or equal ones) of 8 or 16 bits or "
+      "of floating point, disparity * scale");
+  image("jet.png", cv::Mat(3, 4, CV_8UC3, cv::Scalar(0, 8, 255)));
+  EXPECT_EQ(
+      complaint("jet.png"),
+      "jet.png: the ground truth is 8 bit with 3 channels that differ: a picture of a disparity map in "
+      "colours, as it looks, does not hold its values; expected 1 channel (or equal ones) of 8 or 16 "
+      "bits or of floating point, disparity * scale; for values packed into colours as Sintel has them: "
+      "--ground-truth-encoding sintel");
   image("unknown.png", cv::Mat(3, 4, CV_16UC1, cv::Scalar(0)));
   EXPECT_EQ(complaint("unknown.png"), "unknown.png: no pixel to score; every disparity is unknown");
   image("truth.png", cv::Mat(3, 4, CV_16UC1, cv::Scalar(256)));
