@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "platform/input/nesting_depth.hpp"
+#include "platform/input/opencv_yaml.hpp"
 #include "platform/input/text_file.hpp"
 #include "tlm/error.hpp"
 
@@ -27,16 +28,11 @@ std::string reason(const cv::Exception& error) {
   return error.err;
 }
 
-// OpenCV 4.6 does not come back from some texts with this tag.
-void check_binary(const std::string& text, const std::string& path) {
-  const std::string tag = "!!binary";
-  for (std::size_t at = text.find(tag); at != std::string::npos; at = text.find(tag, at)) {
-    at = text.find_first_not_of(' ', at + tag.size());
-    if (at == std::string::npos || text[at] != '|') {
-      throw UserError(fmt::format(
-          "{}: not an OpenCV YAML, XML or JSON file: {} without the | that follows it", path, tag));
-    }
-  }
+// OpenCV 4.6 leaves out what follows some parts of a text, and does not come back from others.
+void check_yaml(const std::string& text, const std::string& path) {
+  if (text.compare(0, 5, "%YAML") != 0) return;
+  if (const std::string fault = look_at_opencv_yaml(text).fault; !fault.empty())
+    throw UserError(fmt::format("{}: not an OpenCV YAML, XML or JSON file: {}", path, fault));
 }
 
 void check_begin(const std::string& text, const std::string& path) {
@@ -44,6 +40,8 @@ void check_begin(const std::string& text, const std::string& path) {
   if (begin == std::string::npos) {
     throw UserError(fmt::format("{}: not an OpenCV YAML, XML or JSON file: it is empty", path));
   }
+  if (text.find('\0') != std::string::npos)
+    throw UserError(fmt::format("{}: not an OpenCV YAML, XML or JSON file: it holds a zero byte", path));
   const bool xml = text.compare(0, 5, "<?xml") == 0;
   // OpenCV 4.6 reads on behind the end of some XML texts.
   if (xml && text[text.find_last_not_of(" \t\r\n")] != '>') {
@@ -60,8 +58,8 @@ void check_begin(const std::string& text, const std::string& path) {
 
 cv::FileStorage parse_file_storage(const std::string& text, const std::string& path) {
   check_begin(text, path);
-  check_binary(text, path);
   check_nesting(text, path);
+  check_yaml(text, path);
   try {
     cv::FileStorage file(text, cv::FileStorage::READ | cv::FileStorage::MEMORY);
     if (file.isOpened() && file.root().isMap()) {

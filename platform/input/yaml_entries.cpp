@@ -2,13 +2,13 @@
 #include "platform/input/yaml_entries.hpp"
 
 #include <fmt/format.h>
+#include <yaml-cpp/depthguard.h>
 
 #include <cmath>
 #include <optional>
 #include <set>
 #include <utility>
 
-#include "platform/input/nesting_depth.hpp"
 #include "platform/input/number_text.hpp"
 #include "platform/input/quoted_text.hpp"
 #include "tlm/error.hpp"
@@ -23,9 +23,11 @@ std::string without_opencv_head(std::string text) {
 }
 
 YAML::Node first_document(const CalibrationRequest::File& file) {
-  check_nesting(file.text, file.path);
   try {
     return YAML::Load(without_opencv_head(file.text));
+  } catch (const YAML::DeepRecursion& error) {
+    throw UserError(
+        fmt::format("{}: nested more than {} deep, such as no calibration is", file.path, error.depth()));
   } catch (const YAML::Exception& error) {
     throw UserError(
         fmt::format("{}: not YAML: line {}: {}", file.path, error.mark.line + 1, excerpt(error.msg)));

@@ -112,15 +112,18 @@ TEST_F(InputLimits, CalibrationsThatAreTooDeep) {
        {"{\"a\": " + repeated("[", 250), "{\"a\": " + repeated("{\"a\": ", 250),
         "%YAML:1.0\n---\na: " + repeated("[", 250), "%YAML:1.0\n---\na: " + repeated("{a: ", 250),
         xml + repeated("<a>", 250), xml + repeated("<a><!--</a>-->", 250),
-        "%YAML:1.0\n---\na: \"b\n" + repeated("[", 250), "%YAML:1.0\n---\na\": " + repeated("[", 250),
-        "%YAML:1.0\n---\na: " + repeated("- ", 250), "%YAML:1.0\n---\n" + repeated("a: ", 250),
-        "%YAML:1.0\n---\na[: " + repeated("- a: ", 250), "%YAML:1.0\n---\na #: " + repeated("- ", 250)}) {
+        "%YAML:1.0\n---\na\": " + repeated("[", 250), "%YAML:1.0\n---\na: " + repeated("- ", 250),
+        "%YAML:1.0\n---\n" + repeated("a: ", 250), "%YAML:1.0\n---\na[: " + repeated("- a: ", 250),
+        "%YAML:1.0\n---\na #: " + repeated("- ", 250)}) {
     program_.folder().write("c.yml", text);
     for (const char* option : {"--calibration", "--maps"}) {
       EXPECT_EQ(error("map encode -o m " + std::string(option) + " c.yml"),
                 "parallax: error: c.yml: nested more than 200 deep, such as no calibration or map is\n");
     }
   }
+  program_.folder().write("c.yml", "cam0:\n  a: " + repeated("[", 1000));
+  EXPECT_EQ(error("map encode -o m --calibration c.yml"),
+            "parallax: error: c.yml: nested more than 500 deep, such as no calibration is\n");
   std::string steps = "%YAML:1.0\n---\n";
   for (int i = 0; i < 260; ++i) steps += std::string(static_cast<std::size_t>(i), ' ') + "a:\n";
   program_.folder().write("c.yml", steps);
