@@ -14,6 +14,7 @@
 
 #include "platform/commands/command_context.hpp"
 #include "platform/commands/common_options.hpp"
+#include "platform/commands/notes.hpp"
 #include "platform/input/map_builder.hpp"
 #include "platform/input/map_fit.hpp"
 #include "platform/input/map_info.hpp"
@@ -67,13 +68,16 @@ ImageSize parse_size(const std::string& option, const std::string& text) {
   return size;
 }
 
-RectificationMap map_of_calibration(const EncodeOptions& options, std::ostream& out) {
+RectificationMap map_of_calibration(const EncodeOptions& options, CommandContext& context,
+                                    std::ostream& out) {
   const ImageSize size = options.size.empty() ? ImageSize{} : parse_size("--size", options.size);
   Calibration calibration =
       read_calibration(options.calibration, size, camera_pair("--cameras", options.cameras));
   if (!options.size.empty()) {
     check_size(calibration, size);
   }
+  Notes notes(context);
+  if (!calibration.choice.empty()) notes(fmt::format("{}: {}", calibration.source, calibration.choice));
   if (options.fit) {
     if (const std::optional<Fit> found = fit(calibration, options.range)) {
       out << fmt::format(
@@ -87,10 +91,10 @@ RectificationMap map_of_calibration(const EncodeOptions& options, std::ostream& 
   return build_map(calibration, options.range);
 }
 
-RectificationMap map_of(const EncodeOptions& options, std::ostream& out) {
+RectificationMap map_of(const EncodeOptions& options, CommandContext& context, std::ostream& out) {
   options.range.validate();
   if (!options.calibration.empty()) {
-    return map_of_calibration(options, out);
+    return map_of_calibration(options, context, out);
   }
   if (!options.maps.empty()) {
     return build_map(read_raw_maps(options.maps), options.range,
@@ -114,8 +118,8 @@ void add_encode(CLI::App& command, CommandContext& context) {
   CLI::Option_group* source = encode_command->add_option_group("source", "Where the offsets come from");
   CLI::Option* calibration = source->add_option("--calibration", options->calibration,
                                                 "Calibration of OpenCV (one file, or intrinsics and "
-                                                "extrinsics), ROS (two files, left and right), Kalibr or "
-                                                "KITTI");
+                                                "extrinsics), ROS (two files, left and right), Kalibr, "
+                                                "KITTI, Middlebury or VINS-Fusion");
   source->add_option(
       "--maps", options->maps,
       "Raw maps: one .yml/.xml/.json with left_x, left_y, right_x, right_y, or four float images");
@@ -139,7 +143,7 @@ void add_encode(CLI::App& command, CommandContext& context) {
     context.action = [options, &context] {
       refuse_to_replace(inputs_of(*options), "--out " + options->output, options->output);
       return report(context, [&](std::ostream& out) {
-        const EncodedMap map = encode(map_of(*options, out));
+        const EncodedMap map = encode(map_of(*options, context, out));
         write_map_file(options->output, map);
         out << fmt::format("{}: {}x{} px, {} bytes, {:.3f} bytes per pixel and image\n", options->output,
                            map.width, map.height, map.bytes.size(), map.bytes_per_pixel());

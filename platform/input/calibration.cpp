@@ -10,8 +10,9 @@ namespace parallax {
 void check_size(const Calibration& calibration, const ImageSize& images) {
   const ImageSize& size = calibration.size;
   if (size.width != images.width || size.height != images.height) {
-    throw UserError(fmt::format("{}: the calibration is for images of {}x{}, these have {}x{}",
-                                calibration.source, size.width, size.height, images.width, images.height));
+    throw UserError(fmt::format("{}: the calibration is for images of {}x{}, these have {}x{}{}",
+                                calibration.source, size.width, size.height, images.width, images.height,
+                                calibration.choice.empty() ? "" : "; " + calibration.choice));
   }
 }
 

@@ -27,10 +27,12 @@ struct Calibration {
   cv::Matx34d P1;  ///< projections of the rectified pair, px; the fourth column in px * unit
   cv::Matx34d P2;
   std::optional<StereoGeometry> geometry;  ///< that of P1 and P2; none for a rectified pair without scale
-  std::string unit;  ///< of the baseline and so of the depth; empty when the file does not say
+  std::string choice;  ///< which cameras of several were taken without being asked for; mostly empty
+  std::string unit;    ///< of the baseline and so of the depth; empty when the file does not say
 };
 
-/// Throws UserError unless the calibration is for images of this size.
+/// Throws UserError unless the calibration is for images of this size. Where other cameras of the file might
+/// fit, it says so.
 void check_size(const Calibration& calibration, const ImageSize& images);
 
 }  // namespace parallax

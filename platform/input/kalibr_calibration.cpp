@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "platform/input/pinhole_camera.hpp"
 #include "platform/input/rigid_transform.hpp"
@@ -13,17 +14,25 @@ namespace {
 
 constexpr const char* kFromNeighbour = "T_cn_cnm1";
 constexpr const char* kFromImu = "T_cam_imu";
+constexpr const char* kToImu = "T_imu_cam";
 
 std::string camera_name(int number) { return fmt::format("cam{}", number); }
+
+std::optional<cv::Matx44d> from_imu(const YamlEntries& camera) {
+  if (camera.has(kFromImu)) return rigid_transform(camera, kFromImu);
+  if (camera.has(kToImu)) return rigid_inverse(rigid_transform(camera, kToImu));
+  return std::nullopt;
+}
 
 // From the axes of the camera before it in the chain.
 cv::Matx44d from_neighbour(const YamlEntries& chain, int number) {
   const YamlEntries camera = chain.map(camera_name(number));
   const YamlEntries neighbour = chain.map(camera_name(number - 1));
-  if (camera.has(kFromNeighbour) || !camera.has(kFromImu) || !neighbour.has(kFromImu)) {
-    return rigid_transform(camera, kFromNeighbour);
+  if (!camera.has(kFromNeighbour)) {
+    const auto here = from_imu(camera), there = from_imu(neighbour);
+    if (here && there) return *here * rigid_inverse(*there);
   }
-  return rigid_transform(camera, kFromImu) * rigid_inverse(rigid_transform(neighbour, kFromImu));
+  return rigid_transform(camera, kFromNeighbour);
 }
 
 cv::Matx44d from_left_to_right(const YamlEntries& chain, const CameraPair& cameras) {

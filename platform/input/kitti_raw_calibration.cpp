@@ -49,6 +49,30 @@ StatedCalibration::Rotations rotations(const KeyedLines& file, const CameraPair&
           cv::Matx33d(file.numbers(right, 9).data())};
 }
 
+// Whether the file rectifies this pair, wholly or in part.
+bool states_rectification(const KeyedLines& file, const CameraPair& cameras) {
+  for (const int number : {cameras.left, cameras.right}) {
+    if (file.has(of_camera("R_rect", number)) || file.has(of_camera("P_rect", number))) return true;
+  }
+  return false;
+}
+
+// x_camera = R x_0 + T of each camera, so that x_right = R_right R_left^t (x_left - T_left) + T_right.
+StatedCalibration::Pose pose(const KeyedLines& file, const CameraPair& cameras) {
+  const auto rotation = [&file](int number) {
+    const std::string key = of_camera("R", number);
+    const cv::Matx33d r(file.numbers(key, 9).data());
+    check_rotation(r, file.where(key));
+    return r;
+  };
+  const auto translation = [&file](int number) {
+    return cv::Vec3d(file.numbers(of_camera("T", number), 3).data());
+  };
+  const cv::Matx33d r = rotation(cameras.right) * rotation(cameras.left).t();
+  return {file.where(of_camera("R", cameras.right)), file.where(of_camera("T", cameras.right)), r,
+          translation(cameras.right) - r * translation(cameras.left)};
+}
+
 }  // namespace
 
 bool is_kitti_raw_calibration(const TopLevel& file) {
@@ -65,6 +89,13 @@ StatedCalibration read_kitti_raw_calibration(const CalibrationRequest& request) 
   StatedCalibration stated;
   stated.source = request.source();
   stated.unit = "m";
+  if (!states_rectification(file, cameras)) {
+    stated.size = raw.width > 0 ? raw : images;
+    stated.left = raw_lens(file, cameras.left);
+    stated.right = raw_lens(file, cameras.right);
+    stated.pose = pose(file, cameras);
+    return stated;
+  }
   const std::string left = of_camera("P_rect", cameras.left);
   const std::string right = of_camera("P_rect", cameras.right);
   stated.projections = {fmt::format("{}, {}", file.where(left), right),

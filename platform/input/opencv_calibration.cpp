@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <opencv2/calib3d.hpp>
 #include <optional>
 
@@ -18,7 +19,18 @@ using EntryNames = std::vector<std::string>;
 const EntryNames kModelName{"camera_model"};
 const EntryNames kDistortionModelName{"distortion_model"};
 
-EntryNames camera_names(const std::string& side) { return {"K" + side, "M" + side, "cameraMatrix" + side}; }
+// The last ones are of ORB-SLAM2, whose R and P of each camera are rotation and projection of the rectified
+// pair.
+const EntryNames kR1{"R1", "LEFT.R"};
+const EntryNames kR2{"R2", "RIGHT.R"};
+const EntryNames kP1{"P1", "LEFT.P"};
+const EntryNames kP2{"P2", "RIGHT.P"};
+
+std::string side_name(const std::string& side) { return side == "1" ? "LEFT" : "RIGHT"; }
+
+EntryNames camera_names(const std::string& side) {
+  return {"K" + side, "M" + side, "cameraMatrix" + side, side_name(side) + ".K"};
+}
 
 template <int R, int C>
 cv::Matx<double, R, C> entry(const FileStorageEntries& file, const EntryNames& names) {
@@ -26,17 +38,15 @@ cv::Matx<double, R, C> entry(const FileStorageEntries& file, const EntryNames& n
   return cv::Matx<double, R, C>(values.data());
 }
 
-bool any_of(const FileStorageEntries& file, const EntryNames& names) {
-  for (const std::string& name : names) {
-    if (file.has({name})) return true;
-  }
-  return false;
+bool any_of(const FileStorageEntries& file, const std::vector<EntryNames>& entries) {
+  return std::any_of(entries.begin(), entries.end(),
+                     [&file](const EntryNames& names) { return file.has(names); });
 }
 
 // Projections or Q, and nothing that would turn or straighten an image.
 bool states_no_lens(const FileStorageEntries& file) {
   const bool lens = file.has(camera_names("1")) || file.has(camera_names("2"));
-  return !lens && !any_of(file, {"R", "T", "R1", "R2"}) && any_of(file, {"P1", "P2", "Q"});
+  return !lens && !any_of(file, {{"R"}, {"T"}, kR1, kR2}) && any_of(file, {kP1, kP2, {"Q"}});
 }
 
 LensModel named_model(const FileStorageEntries& file, const EntryNames& entry_name, const std::string& name,
@@ -80,10 +90,11 @@ ImageSize stated_size(const FileStorageEntries& file, const ImageSize& otherwise
     const std::vector<double> values = file.numbers(both, {{2, 1}, {1, 2}});
     size = image_size(values[0], values[1], file.where(both));
   }
-  if (!file.has({"image_width"}) && !file.has({"image_height"})) return size.value_or(otherwise);
-  const double width = file.numbers({"image_width"}, {{1, 1}})[0];
-  const double height = file.numbers({"image_height"}, {{1, 1}})[0];
-  const ImageSize sides = image_size(width, height, file.where({"image_width"}) + ", image_height");
+  const EntryNames width{"image_width", "LEFT.width", "RIGHT.width"};
+  const EntryNames height{"image_height", "LEFT.height", "RIGHT.height"};
+  if (!file.has(width) && !file.has(height)) return size.value_or(otherwise);
+  const ImageSize sides = image_size(file.numbers(width, {{1, 1}})[0], file.numbers(height, {{1, 1}})[0],
+                                     file.where(width) + ", image_height");
   if (size && (size->width != sides.width || size->height != sides.height)) {
     throw UserError(fmt::format("{}: {}x{} contradicts image_width, image_height: {}x{}", file.where(both),
                                 size->width, size->height, sides.width, sides.height));
@@ -100,18 +111,22 @@ StatedCalibration::StatedLens stated_camera(const FileStorageEntries& file, cons
 
 StatedCalibration::StatedLens stated_lens(const FileStorageEntries& file, const std::string& side) {
   StatedCalibration::StatedLens lens = stated_camera(file, side);
-  const EntryNames names{"D" + side, "distCoeffs" + side, "distortion" + side};
+  const EntryNames names{"D" + side, "distCoeffs" + side, "distortion" + side, side_name(side) + ".D"};
   lens.distortion_name = file.where(names);
   lens.lens.distortion = file.numbers(names, {});
   return lens;
 }
 
-cv::Matx33d stated_rotation(const FileStorageEntries& file, const std::string& name) {
-  const std::vector<double> values = file.numbers({name}, {{3, 3}, {3, 1}, {1, 3}});
+cv::Matx33d stated_rotation(const FileStorageEntries& file, const EntryNames& names) {
+  const std::vector<double> values = file.numbers(names, {{3, 3}, {3, 1}, {1, 3}});
   if (values.size() != 3) return cv::Matx33d(values.data());
   cv::Matx33d r;
   cv::Rodrigues(cv::Vec3d(values.data()), r);
   return r;
+}
+
+StatedCalibration::Rotations stated_rotations(const FileStorageEntries& file) {
+  return {file.where(kR1), file.where(kR2), stated_rotation(file, kR1), stated_rotation(file, kR2)};
 }
 
 StatedCalibration::Pose stated_pose(const FileStorageEntries& file, const cv::Matx33d& rotation) {
@@ -120,35 +135,33 @@ StatedCalibration::Pose stated_pose(const FileStorageEntries& file, const cv::Ma
 }
 
 StatedCalibration::Projections stated_projections(const FileStorageEntries& file) {
-  return {file.where({"P1"}) + ", P2", entry<3, 4>(file, {"P1"}), entry<3, 4>(file, {"P2"})};
+  return {file.where(kP1) + ", P2", entry<3, 4>(file, kP1), entry<3, 4>(file, kP2)};
 }
 
 void read_rectified_pair(const FileStorageEntries& file, StatedCalibration& stated) {
-  if (any_of(file, {"P1", "P2"})) stated.projections = stated_projections(file);
+  if (any_of(file, {kP1, kP2})) stated.projections = stated_projections(file);
   if (file.has(camera_names("1")) && file.has(camera_names("2"))) {
     stated.left = stated_camera(file, "1");
     stated.right = stated_camera(file, "2");
   }
   if (file.has({"T"})) {
-    stated.pose = stated_pose(file, file.has({"R"}) ? stated_rotation(file, "R") : cv::Matx33d::eye());
+    stated.pose = stated_pose(file, file.has({"R"}) ? stated_rotation(file, {"R"}) : cv::Matx33d::eye());
   }
-  if (file.has({"R1"}) && file.has({"R2"})) {
-    stated.rotations = {file.where({"R1"}), file.where({"R2"}), stated_rotation(file, "R1"),
-                        stated_rotation(file, "R2")};
+  if (file.has(kR1) && file.has(kR2)) {
+    stated.rotations = stated_rotations(file);
   }
 }
 
 void read_raw_pair(const FileStorageEntries& file, StatedCalibration& stated) {
   stated.left = stated_lens(file, "1");
   stated.right = stated_lens(file, "2");
-  const bool rectification = any_of(file, {"R1", "R2", "P1", "P2"});
+  const bool rectification = any_of(file, {kR1, kR2, kP1, kP2});
   if (rectification) {
-    stated.rotations = {file.where({"R1"}), file.where({"R2"}), stated_rotation(file, "R1"),
-                        stated_rotation(file, "R2")};
+    stated.rotations = stated_rotations(file);
     stated.projections = stated_projections(file);
   }
   if (!rectification || (file.has({"R"}) && file.has({"T"}))) {
-    stated.pose = stated_pose(file, stated_rotation(file, "R"));
+    stated.pose = stated_pose(file, stated_rotation(file, {"R"}));
   }
 }
 

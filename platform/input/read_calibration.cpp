@@ -2,7 +2,9 @@
 #include "platform/input/read_calibration.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 
@@ -14,6 +16,7 @@
 #include "platform/input/opencv_calibration.hpp"
 #include "platform/input/ros_calibration.hpp"
 #include "platform/input/text_file.hpp"
+#include "platform/input/vins_calibration.hpp"
 #include "tlm/error.hpp"
 
 namespace parallax {
@@ -26,26 +29,32 @@ struct CalibrationFormat {
   bool (*is)(const TopLevel& file);
   StatedCalibration (*read)(const CalibrationRequest& request);
   bool several_files;
-  bool several_cameras;
+  std::vector<const char*>
+      numbered;  // beginnings of the names that end in a camera's number; none: two cameras
 };
 
 // The first that a file is of: OpenCV's head alone says little, as other YAML has it too.
 const std::array kFormats{
-    CalibrationFormat{"Middlebury calib.txt", is_middlebury_calibration, read_middlebury_calibration, false,
-                      false},
-    CalibrationFormat{"Kalibr camchain", is_kalibr_calibration, read_kalibr_calibration, false, true},
-    CalibrationFormat{"EuRoC sensor.yaml", is_euroc_calibration, read_euroc_calibration, true, false},
-    CalibrationFormat{"ROS camera_info", is_ros_calibration, read_ros_calibration, true, false},
-    CalibrationFormat{"KITTI calib_cam_to_cam.txt", is_kitti_raw_calibration, read_kitti_raw_calibration,
-                      false, true},
-    CalibrationFormat{"KITTI calib.txt", is_kitti_calibration, read_kitti_calibration, false, true},
-    CalibrationFormat{"OpenCV FileStorage", is_opencv_calibration, read_opencv_calibration, true, false},
+    CalibrationFormat{
+        "Middlebury calib.txt", is_middlebury_calibration, read_middlebury_calibration, false, {}},
+    CalibrationFormat{"Kalibr camchain", is_kalibr_calibration, read_kalibr_calibration, false, {"cam"}},
+    CalibrationFormat{"EuRoC sensor.yaml", is_euroc_calibration, read_euroc_calibration, true, {}},
+    CalibrationFormat{"ROS camera_info", is_ros_calibration, read_ros_calibration, true, {}},
+    CalibrationFormat{"KITTI calib_cam_to_cam.txt",
+                      is_kitti_raw_calibration,
+                      read_kitti_raw_calibration,
+                      false,
+                      {"P_rect_", "K_"}},
+    CalibrationFormat{"KITTI calib.txt", is_kitti_calibration, read_kitti_calibration, false, {"P"}},
+    CalibrationFormat{"VINS camera model", is_vins_calibration, read_vins_calibration, true, {}},
+    CalibrationFormat{"OpenCV FileStorage", is_opencv_calibration, read_opencv_calibration, true, {}},
 };
 
 constexpr const char* kKnownFormats =
     "OpenCV FileStorage (YAML with the first line %YAML:1.0, XML or JSON), ROS camera_info or EuRoC "
-    "sensor.yaml "
-    "(two files), Kalibr camchain, KITTI calib.txt or calib_cam_to_cam.txt, Middlebury calib.txt";
+    "sensor.yaml (two files), Kalibr camchain, KITTI calib.txt or calib_cam_to_cam.txt, Middlebury "
+    "calib.txt, "
+    "VINS-Fusion (its configuration, which names the files of both cameras)";
 
 // YAML with OpenCV's entries, but without its first line.
 bool lacks_head(const TopLevel& file, const std::string& text) {
@@ -70,14 +79,57 @@ const CalibrationFormat& format_of(const CalibrationRequest::File& file) {
   throw UserError(fmt::format("{}: not a calibration of a known format: {}", file.path, kKnownFormats));
 }
 
+// Of a file with several.
+std::vector<int> cameras_in(const CalibrationFormat& format, const std::string& text) {
+  const TopLevel top(text);
+  std::vector<int> all;
+  for (const char* beginning : format.numbered) {
+    for (const int number : top.numbers(beginning)) all.push_back(number);
+  }
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return all;
+}
+
+std::string listed(const std::vector<int>& numbers) {
+  return fmt::format("{} and {}", fmt::join(numbers.begin(), numbers.end() - 1, ", "), numbers.back());
+}
+
+// The last two that are not those that are taken, which is a pair in all that is known.
+std::string other_pair(const std::vector<int>& cameras) {
+  return fmt::format("--cameras {},{}", cameras[cameras.size() - 2], cameras.back());
+}
+
+void check_cameras(const CalibrationRequest& request, const std::vector<int>& cameras, bool asked_for) {
+  if (cameras.size() < 2) return;
+  for (const int number : {request.cameras.left, request.cameras.right}) {
+    if (std::find(cameras.begin(), cameras.end(), number) != cameras.end()) continue;
+    if (asked_for) {
+      throw UserError(
+          fmt::format("{}: holds no camera {}, but {}", request.source(), number, listed(cameras)));
+    }
+    throw UserError(fmt::format("{}: holds the cameras {}, and 0 and 1 are taken if nothing is said: {}",
+                                request.source(), listed(cameras), other_pair(cameras)));
+  }
+}
+
+CalibrationRequest read_files(const std::vector<std::string>& paths) {
+  CalibrationRequest request;
+  const auto add = [&request](const std::string& path) {
+    request.files.push_back({path, read_text_file(path, kLargestCalibration)});
+  };
+  for (const std::string& path : paths) add(path);
+  if (paths.size() > 1) return request;
+  for (const std::string& path : camera_files_of_estimator(request.files.front())) add(path);
+  return request;
+}
+
 }  // namespace
 
 Calibration read_calibration(const std::vector<std::string>& paths, const ImageSize& images,
                              const std::optional<CameraPair>& cameras) {
-  CalibrationRequest request;
+  CalibrationRequest request = read_files(paths);
   request.images = images;
-  for (const std::string& path : paths)
-    request.files.push_back({path, read_text_file(path, kLargestCalibration)});
   const CalibrationFormat& format = format_of(request.files.front());
   for (const CalibrationRequest::File& file : request.files) {
     const CalibrationFormat& other = format_of(file);
@@ -91,13 +143,20 @@ Calibration read_calibration(const std::vector<std::string>& paths, const ImageS
                                 paths.size()));
   }
   if (cameras) {
-    if (!format.several_cameras) {
+    if (format.numbered.empty()) {
       throw UserError(fmt::format("{}: {} has no numbered cameras that --cameras could choose from",
                                   request.source(), format.name));
     }
     request.cameras = *cameras;
   }
-  return complete(format.read(request));
+  const std::vector<int> held = cameras_in(format, request.files.front().text);
+  check_cameras(request, held, cameras.has_value());
+  Calibration calibration = complete(format.read(request));
+  if (!cameras && held.size() > 2) {
+    calibration.choice =
+        fmt::format("of its cameras {}, 0 and 1 are taken; {} takes others", listed(held), other_pair(held));
+  }
+  return calibration;
 }
 
 std::optional<CameraPair> camera_pair(const std::string& option, const std::string& text) {

@@ -74,6 +74,7 @@ Calibration given_calibration(const RunOptions& options, const OffsetRange& rang
   Calibration calibration =
       read_calibration(options.calibration, size, camera_pair("--cameras", options.cameras));
   check_size(calibration, size);
+  if (!calibration.choice.empty()) notice(fmt::format("{}: {}", calibration.source, calibration.choice));
   if (options.fit) {
     if (const std::optional<Fit> found = fit(calibration, range)) {
       notice(found->text());

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <set>
 #include <sstream>
 
 namespace parallax {
@@ -40,11 +41,15 @@ std::string TopLevel::value(const std::string& name) const {
   return found == values_.end() ? "" : found->second;
 }
 
-bool TopLevel::has_numbered(const std::string& beginning) const {
-  return std::any_of(values_.begin(), values_.end(), [&beginning](const auto& entry) {
-    const std::string& name = entry.first;
-    return name.compare(0, beginning.size(), beginning) == 0 && digits_only(name.substr(beginning.size()));
-  });
+std::vector<int> TopLevel::numbers(const std::string& beginning) const {
+  constexpr std::size_t kMostDigits = 3;
+  std::set<int> found;
+  for (const auto& [name, value] : values_) {
+    if (name.compare(0, beginning.size(), beginning) != 0) continue;
+    const std::string rest = name.substr(beginning.size());
+    if (digits_only(rest) && rest.size() <= kMostDigits) found.insert(std::stoi(rest));
+  }
+  return {found.begin(), found.end()};
 }
 
 bool TopLevel::has_number(const std::string& name) const {

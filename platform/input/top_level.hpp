@@ -3,6 +3,7 @@
 
 #include <map>
 #include <string>
+#include <vector>
 
 namespace parallax {
 
@@ -15,8 +16,10 @@ class TopLevel {
   bool has(const std::string& name) const { return values_.count(name) != 0; }
   /// As it stands in the line, without blanks around it; empty if there is none.
   std::string value(const std::string& name) const;
-  /// Whether a name stands here that has this beginning and then digits only.
-  bool has_numbered(const std::string& beginning) const;
+  /// The numbers, of three digits at most, of the names that have this beginning and then digits only,
+  /// ascending.
+  std::vector<int> numbers(const std::string& beginning) const;
+  bool has_numbered(const std::string& beginning) const { return !numbers(beginning).empty(); }
   /// Whether a name stands here whose value begins like a number.
   bool has_number(const std::string& name) const;
   /// Whether the text begins as OpenCV's YAML, XML or JSON does.

@@ -51,7 +51,7 @@ TEST_F(CalibrationFormats, OneRigIsOneCloud) {
         "P0: 128 0 48 0 0 128 32 0 0 0 1 0\nP1: 128 0 48 -16 0 128 32 0 0 0 1 0\nP2: 128 0 48 8 0 128 32 0 0 "
         "0 1 0\nP3: 128 "
         "0 48 -8 0 128 32 0 0 0 1 0\n");
-  EXPECT_EQ(cloud("calib.txt"), expected);
+  EXPECT_EQ(cloud("calib.txt --cameras 0,1"), expected);
   EXPECT_EQ(cloud("calib.txt --cameras 2,3"), expected);
   const auto camera_info = [](const std::string& tx) {
     return "width: 96\nheight: 64\ndistortion_model: plumb_bob\nD: [0, 0, 0, 0, 0]\nK: [128, 0, 48, 0, 128, "
@@ -68,6 +68,26 @@ TEST_F(CalibrationFormats, OneRigIsOneCloud) {
         "cam0=[128 0 48; 0 128 32; 0 0 1]\ncam1=[128 0 48; 0 128 32; 0 0 "
         "1]\ndoffs=0\nbaseline=125\nwidth=96\nheight=64\n");
   EXPECT_EQ(cloud("middlebury.txt").size(), expected.size());
+}
+
+TEST_F(CalibrationFormats, WhichOfSeveralCamerasIsSaid) {
+  std::string four;
+  for (const auto& [name, x] : {std::pair("P0", "0"), {"P1", "-16"}, {"P2", "8"}, {"P3", "-8"}})
+    four += std::string(name) + ": 128 0 48 " + x + " 0 128 32 0 0 0 1 0\n";
+  write("calib.txt", four);
+  const std::string said =
+      "parallax: note: calib.txt: of its cameras 0, 1, 2 and 3, 0 and 1 are taken; --cameras 2,3 takes "
+      "others\n";
+  EXPECT_EQ(run("calib.txt").err, said);
+  EXPECT_EQ(run("calib.txt --cameras 0,1").err, "");
+  EXPECT_EQ(program_("map encode --size 96x64 -o m --calibration calib.txt").err, said);
+  write("calib.txt", four.substr(four.find("P2")));
+  EXPECT_EQ(
+      run("calib.txt").err,
+      "parallax: error: calib.txt: holds the cameras 2 and 3, and 0 and 1 are taken if nothing is said: "
+      "--cameras 2,3\n");
+  EXPECT_EQ(run("calib.txt --cameras 2,5").err,
+            "parallax: error: calib.txt: holds no camera 5, but 2 and 3\n");
 }
 
 TEST_F(CalibrationFormats, DisparitiesThatMeanNothingAreLeftOutAndSaidSo) {

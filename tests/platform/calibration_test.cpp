@@ -308,8 +308,8 @@ TEST_F(CalibrationTest, WhatIsNoCalibrationIsNamed) {
         file +
             ": not a calibration of a known format: OpenCV FileStorage (YAML with the first line %YAML:1.0, "
             "XML or JSON), ROS camera_info or EuRoC sensor.yaml (two files), Kalibr camchain, KITTI "
-            "calib.txt or "
-            "calib_cam_to_cam.txt, Middlebury calib.txt");
+            "calib.txt or calib_cam_to_cam.txt, Middlebury calib.txt, VINS-Fusion (its configuration, which "
+            "names the files of both cameras)");
   }
   EXPECT_EQ(message([&] { read_calibration({path("none.yml")}); }),
             path("none.yml") + ": cannot read: No such file or directory");
@@ -353,7 +353,8 @@ TEST_F(CalibrationTest, OpenCvsReasonAndLineAreTold) {
             "line 3: Mismatched closing tag");
   EXPECT_EQ(line("{\"K1\": [1, 2}"), "line 1: Unexpected character");
   EXPECT_EQ(line("<?xml version=\"1.0\"?>\n<opencv_storage>\n</opencv_storage>\nx"), "it ends too early");
-  EXPECT_EQ(line("%YAML:1.0\n---\n# !!binary\nT: 1\n"), "!!binary without the | that follows it");
+  EXPECT_EQ(line("%YAML:1.0\n---\nT: !!binary 1\n"), "line 3: !!binary without | and rows of base64");
+  EXPECT_EQ(line(std::string("%YAML:1.0\n---\nT: 1\0\n", 20)), "it holds a zero byte");
   EXPECT_EQ(line("%YAML:1.0\n---\nK1: !!opencv-matrix\n   rows: 3\n   : 3\n"), "an entry has no name");
   EXPECT_EQ(line("%YAML:1.0\n---\n- 1\n- 2\n"), "it has no named entries");
 }
@@ -376,6 +377,29 @@ TEST_F(CalibrationTest, AMissingFirstLineIsNamed) {
             ": looks like OpenCV's YAML, but its first line is not %YAML:1.0, without which OpenCV does not "
             "read it");
   }
+}
+
+// A rectification of parallel cameras 0.1 apart: 50 / 500.
+TEST_F(CalibrationTest, TheNamesOfOrbSlam) {
+  std::string text =
+      "%YAML:1.0\n---\nCamera.fx: 500.0\nCamera.bf: 50.\nLEFT.height: 480\nLEFT.width: 640\n"
+      "RIGHT.height: 480\nRIGHT.width: 640\n";
+  for (const auto& [side, x] : {std::pair<std::string, const char*>("LEFT", "0"), {"RIGHT", "-50."}}) {
+    text += matrix_entry(side + ".D", 1, 5, "-0.28, 0.07, 0.0002, 1.7e-05, 0.") +
+            matrix_entry(side + ".K", 3, 3, "458., 0., 367., 0., 457., 248., 0., 0., 1.") +
+            matrix_entry(side + ".R", 3, 3, "1., 0., 0., 0., 1., 0., 0., 0., 1.") +
+            matrix_entry(side + ".P", 3, 4,
+                         "500., 0., 320., " + std::string(x) + ", 0., 500., 240., 0., 0., 0., 1., 0.");
+  }
+  const Calibration c = read_calibration({write("orb.yml", text)});
+  EXPECT_EQ(c.model, LensModel::kPinhole);
+  EXPECT_EQ(c.size.width, 640);
+  EXPECT_EQ(c.left.camera, cv::Matx33d(458, 0, 367, 0, 457, 248, 0, 0, 1));
+  EXPECT_EQ(c.right.distortion, (std::vector<double>{-0.28, 0.07, 0.0002, 1.7e-05, 0}));
+  EXPECT_DOUBLE_EQ(c.geometry->baseline, 0.1);
+  const std::string other = write("d.yml", with_entry(text, "RIGHT.width", "RIGHT.width: 320"));
+  EXPECT_EQ(message([&] { read_calibration({other}); }),
+            other + ": LEFT.width contradicts " + other + ": RIGHT.width");
 }
 
 TEST_F(CalibrationTest, MatricesInBase64AreRead) {

@@ -96,7 +96,7 @@ TEST_F(KalibrCalibration, AnyTwoCamerasOfTheChain) {
       "exchanged?");
   // Camera 1 stands to the left of 0.
   EXPECT_NEAR(read(camera(0, "") + camera(1, moved("0.1")), CameraPair{1, 0}).geometry->baseline, 0.1, 1e-9);
-  EXPECT_EQ(line(chain(), CameraPair{2, 3}), "cam3 is missing");
+  EXPECT_EQ(line(chain(), CameraPair{2, 3}), "holds no camera 3, but 0, 1 and 2");
 }
 
 TEST_F(KalibrCalibration, ARealRigRectifiesAsFromOpenCvsFile) {
@@ -135,6 +135,12 @@ TEST_F(KalibrCalibration, TransformsFromTheImuStandIn) {
   const std::string text = camera(0, from_imu("1")) + camera(1, from_imu("0.88"));
   EXPECT_NEAR(read(text).geometry->baseline, 0.12, 1e-9);
   EXPECT_NEAR(read(text + moved("-0.1")).geometry->baseline, 0.1, 1e-9) << "T_cn_cnm1 comes first";
+  // OpenVINS: x of the cameras along +y of the IMU, the right one 0.12 further there.
+  const auto to_imu = [](const std::string& y) {
+    return transform("T_imu_cam", std::string("0, -1, 0, 1"), "1, 0, 0, " + y, "0, 0, 1, 3");
+  };
+  EXPECT_NEAR(read(camera(0, to_imu("2")) + camera(1, to_imu("2.12"))).geometry->baseline, 0.12, 1e-9);
+  EXPECT_EQ(line(camera(0, "") + camera(1, to_imu("2.12"))), "cam1: T_cn_cnm1 is missing");
 }
 
 TEST_F(KalibrCalibration, WaysToWriteIt) {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <opencv2/core.hpp>
+#include <tuple>
 
 #include "platform/input/kitti_raw_calibration.hpp"
 #include "platform/input/read_calibration.hpp"
@@ -101,7 +102,7 @@ TEST_F(KittiCalibration, WaysToWriteIt) {
 
 TEST_F(KittiCalibration, DamageIsNamed) {
   const std::string text = rectified_text();
-  EXPECT_EQ(line(text.substr(text.find("P1"))), "P0 is missing");
+  EXPECT_EQ(line(text.substr(text.find("P1"), text.find("P2") - text.find("P1"))), "P0 is missing");
   EXPECT_EQ(line(text.substr(0, text.find("P1"))), "P1 is missing");
   EXPECT_EQ(line(replaced(text, "P1: 7.070493e+02", "P1:")), "P1 has 11 numbers, 12 expected");
   EXPECT_EQ(line(replaced(text, "P1: 7.070493e+02", "P1: 7,5x")), "P1: \"5x\" is not a number");
@@ -112,7 +113,8 @@ TEST_F(KittiCalibration, DamageIsNamed) {
   EXPECT_EQ(line(replaced(text, "P1: 7.070493e+02", "P1: -7.070493e+02")),
             "P0, P1: focal lengths -707.0493 and 707.0493 px; those of a rectified image are from 1 to "
             "10000000 px");
-  EXPECT_EQ(line(replaced(text, "P1", "P0")), "P0 occurs twice, with other numbers");
+  EXPECT_EQ(line(replaced(rectified_text().substr(0, text.find("P2")), "P1", "P0")),
+            "P0 occurs twice, with other numbers");
   EXPECT_EQ(line(text, {}), "states no image size; give it with --size");
   EXPECT_EQ(line(text, {1226, 370}, CameraPair{1, 0}),
             "P1, P0: the right camera lies 0.5 to the left of the left one; are the images exchanged?");
@@ -156,7 +158,64 @@ TEST_F(KittiCalibration, DamageOfARawFileIsNamed) {
             "S_01: 400x200, but S_00 is 300x200; the images of a pair have one size");
   EXPECT_EQ(line(replaced(raw_text(), "S_00: 3.000000e+02", "S_00: 3.5"), {300, 200}),
             "S_00: 3.5x200 is not an image size");
-  EXPECT_EQ(line(raw_text(), {280, 160}, CameraPair{2, 3}), "P_rect_02 is missing");
+  EXPECT_EQ(line(raw_text(), {280, 160}, CameraPair{2, 3}), "holds no camera 2, but 0 and 1");
+}
+
+TEST_F(KittiCalibration, CamerasThatAreOrAreNotThere) {
+  const std::string text = rectified_text();
+  EXPECT_EQ(line(text.substr(text.find("P1"))),
+            "holds the cameras 1, 2 and 3, and 0 and 1 are taken if nothing is said: --cameras 2,3");
+  EXPECT_EQ(line(text.substr(text.find("P2"))),
+            "holds the cameras 2 and 3, and 0 and 1 are taken if nothing is said: --cameras 2,3");
+  EXPECT_EQ(line(text, {1226, 370}, CameraPair{2, 4}), "holds no camera 4, but 0, 1, 2 and 3");
+  const Calibration c = read(text, {1226, 370});
+  EXPECT_EQ(c.choice, "of its cameras 0, 1, 2 and 3, 0 and 1 are taken; --cameras 2,3 takes others");
+  EXPECT_EQ(
+      message([&] {
+        check_size(c, {1224, 370});
+      }),
+      path("calib.txt") +
+          ": the calibration is for images of 1226x370, these have 1224x370; of its cameras 0, 1, 2 and "
+          "3, 0 and 1 are taken; --cameras 2,3 takes others");
+  EXPECT_EQ(read(text, {1226, 370}, CameraPair{0, 1}).choice, "") << "it was asked for";
+  EXPECT_EQ(read(text.substr(0, text.find("P2")), {1226, 370}).choice, "");
+}
+
+// Three cameras whose R and T are from camera 0: 1 is turned by 90 degrees about z (x_1 = y_0, y_1 = -x_0)
+// and 0.5 m along +x of camera 0; 2 is turned alike and 0.75 m along +y of camera 0, which is +x of camera 1.
+std::string unrectified_text() {
+  std::string text = "calib_time: 09-Jan-2012 13:57:47\n";
+  const std::string turned = "0 1 0 -1 0 0 0 0 1";
+  // T = -R c of a camera at c: of (0.5, 0, 0) it is (0, 0.5, 0), of (0.5, 0.75, 0) it is (-0.75, 0.5, 0).
+  for (const auto& [number, r, t] : {std::tuple("00", std::string("1 0 0 0 1 0 0 0 1"), "0 0 0"),
+                                     {"01", turned, "0 5.0e-01 0"},
+                                     {"02", turned, "-7.5e-01 5.0e-01 0"}}) {
+    const std::string n = number;
+    text +=
+        "S_" + n + ": 3.000000e+02 2.000000e+02\nK_" + n + ": 2.1e+02 0 1.5e+02 0 2.2e+02 1.0e+02 0 0 1\n";
+    text += "D_" + n + ": 0 0 0 0 0\nR_" + n + ": " + r + "\nT_" + n + ": " + t + "\n";
+  }
+  return text;
+}
+
+TEST_F(KittiCalibration, WithoutARectificationThePairIsPlacedByRAndT) {
+  const Calibration c = read(unrectified_text(), {300, 200}, CameraPair{1, 2});
+  EXPECT_EQ(c.model, LensModel::kPinhole);
+  EXPECT_EQ(c.size.width, 300);
+  EXPECT_EQ(c.right.camera, cv::Matx33d(210, 0, 150, 0, 220, 100, 0, 0, 1));
+  EXPECT_LT(cv::norm(c.R1 - cv::Matx33d::eye()), 1e-9) << "both are turned alike";
+  EXPECT_NEAR(c.geometry->baseline, 0.75, 1e-9);
+  // Not turned, and at the same place.
+  std::string straight = unrectified_text();
+  straight = replaced(straight, "R_01: 0 1 0 -1 0 0 0 0 1\nT_01: 0 5.0e-01 0",
+                      "R_01: 1 0 0 0 1 0 0 0 1\nT_01: -5.0e-01 0 0");
+  EXPECT_NEAR(read(straight, {300, 200}).geometry->baseline, 0.5, 1e-9);
+  EXPECT_EQ(line(replaced(straight, "T_01", "X"), {300, 200}), "T_01 is missing");
+  EXPECT_EQ(line(replaced(straight, "R_01: 1", "R_01: 3"), {300, 200}), "R_01: not a rotation matrix");
+  EXPECT_EQ(message([&] {
+              check_size(read(straight, {280, 160}, CameraPair{0, 1}), {280, 160});
+            }),
+            path("calib.txt") + ": the calibration is for images of 300x200, these have 280x160");
 }
 
 }  // namespace kitti_calibration_test
