@@ -8,6 +8,7 @@
 #include <cstring>
 #include <fstream>
 
+#include "platform/files/plain_file.hpp"
 #include "tlm/error.hpp"
 
 namespace parallax {
@@ -16,11 +17,8 @@ namespace {
 constexpr std::size_t kMostBytes = 16 << 20;
 
 std::string content_of(const std::filesystem::path& file, const std::string& what) {
+  require_plain_file(file.string(), fmt::format("a {} file", what));
   std::ifstream stream(file, std::ios::binary);
-  std::error_code ignored;
-  if (std::filesystem::is_directory(file, ignored)) {
-    throw UserError(fmt::format("{}: is a folder, not a {} file", file.string(), what));
-  }
   if (!stream)
     throw UserError(fmt::format("{}: cannot read the {}: {}", file.string(), what, std::strerror(errno)));
   std::string content(kMostBytes + 1, '\0');

@@ -9,6 +9,7 @@
 #include <cstring>
 #include <memory>
 
+#include "platform/files/open_stream.hpp"
 #include "platform/input/input_file.hpp"
 #include "platform/input/trace_formats.hpp"
 #include "tlm/error.hpp"
@@ -23,7 +24,9 @@ constexpr std::size_t kMostRequests = 100'000'000;  // 3 GB of memory
 // The lines of a file, plain or compressed.
 class Lines {
  public:
-  explicit Lines(const std::string& path) : path_(path), file_(gzopen(path.c_str(), "rb"), gzclose) {
+  explicit Lines(const std::string& path) : path_(path), file_(nullptr, gzclose) {
+    const int descriptor = open_stream(path);
+    if (descriptor >= 0) file_.reset(gzdopen(descriptor, "rb"));
     if (!file_) throw UserError(fmt::format("{}: cannot be read: {}", path, std::strerror(errno)));
   }
 
@@ -66,7 +69,7 @@ class Lines {
   }
 
   const std::string path_;
-  const std::unique_ptr<gzFile_s, int (*)(gzFile)> file_;
+  std::unique_ptr<gzFile_s, int (*)(gzFile)> file_;
   std::array<char, kChunk> buffer_{};
   std::size_t at_ = 0, end_ = 0;
   int number_ = 0;

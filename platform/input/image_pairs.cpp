@@ -3,12 +3,12 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
 #include <iomanip>
 #include <sstream>
 
+#include "platform/files/plain_file.hpp"
 #include "platform/input/folder_pairs.hpp"
-#include "platform/input/input_file.hpp"
+#include "platform/input/text_file.hpp"
 #include "tlm/error.hpp"
 
 namespace parallax {
@@ -16,15 +16,32 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<ImagePair> pairs_of_list(const fs::path& list) {
-  std::ifstream file(list);
-  if (!file) {
-    throw UserError(fmt::format("cannot read the list of pairs {}", list.string()));
+constexpr std::size_t kLongestPath = 200;  // of what a message quotes of a path
+
+// What says nothing of a path, such as that it is too long, is that it is not there.
+bool is_there(const fs::path& path) {
+  std::error_code failed;
+  return fs::exists(path, failed);
+}
+
+std::string text_of_list(const fs::path& list) {
+  constexpr std::size_t kLargestList = std::size_t{64} << 20;
+  require_plain_file(list.string(), "a folder or a list of image pairs");
+  std::string text = read_text_file(list.string(), kLargestList);
+  if (text.find('\0') != std::string::npos) {
+    throw UserError(fmt::format(
+        "{} is no list of pairs, as it is no text; expected two paths a line: left right; a pair goes with "
+        "--left and --right",
+        list.string()));
   }
+  return text;
+}
+
+std::vector<ImagePair> pairs_of_list(const fs::path& list) {
+  std::istringstream file(text_of_list(list));
   std::vector<ImagePair> pairs;
   std::string line;
   for (int number = 1; std::getline(file, line); ++number) {
-    if (number == 1 && line.rfind(kByteOrderMark, 0) == 0) line.erase(0, kByteOrderMark.size());
     std::istringstream words(line);
     std::vector<std::string> paths;
     for (std::string word; words >> std::ws && words.peek() != '#' && words >> std::quoted(word);) {
@@ -39,8 +56,9 @@ std::vector<ImagePair> pairs_of_list(const fs::path& list) {
     }
     const ImagePair pair{list.parent_path() / paths[0], list.parent_path() / paths[1]};
     for (const fs::path& path : {pair.left, pair.right}) {
-      if (!fs::exists(path)) {
-        throw UserError(fmt::format("{}:{}: {} does not exist", list.string(), number, path.string()));
+      if (!is_there(path)) {
+        throw UserError(
+            fmt::format("{}:{}: {} does not exist", list.string(), number, excerpt(path.string(), kLongestPath)));
       }
     }
     pairs.push_back(pair);
@@ -55,8 +73,7 @@ std::vector<ImagePair> pairs_of_list(const fs::path& list) {
 }  // namespace
 
 std::vector<ImagePair> find_image_pairs(const fs::path& folder_or_list) {
-  std::error_code unreadable;  // a circle of links, say
-  if (!fs::exists(folder_or_list, unreadable)) {
+  if (!is_there(folder_or_list)) {
     throw UserError(fmt::format("{} does not exist; expected a folder or a list of image pairs",
                                 folder_or_list.string()));
   }

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <memory>
 
+#include "platform/files/plain_file.hpp"
 #include "tlm/error.hpp"
 
 namespace parallax {
@@ -24,6 +25,7 @@ struct CloseFile {
 }  // namespace
 
 std::vector<std::uint8_t> read_file(const std::string& path) {
+  require_plain_file(path);
   const std::unique_ptr<std::FILE, CloseFile> file(std::fopen(path.c_str(), "rb"));
   if (!file) fail(path, errno);
   std::vector<std::uint8_t> bytes;

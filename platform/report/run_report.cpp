@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "platform/files/plain_file.hpp"
 #include "platform/results/result_schema.hpp"
 #include "tlm/error.hpp"
 #include "traces/json_text.hpp"
@@ -20,6 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string read(const fs::path& path) {
+  require_plain_file(path.string(), "results of a run");
   std::ifstream in(path, std::ios::binary);
   constexpr std::size_t kMost = std::size_t{256} << 20;
   std::string text;

@@ -39,6 +39,7 @@ std::vector<std::string> names_in(const fs::path& folder) {
 OutputFolder::OutputFolder(fs::path path, FolderPlan plan) : path_(std::move(path)), plan_(std::move(plan)) {
   if (path_.empty()) throw UserError("the name of the output folder is empty");
   make(path_);
+  for (lock_.emplace(path_); !lock_->is_at(path_); lock_.emplace(path_)) make(path_);
   if (::faccessat(AT_FDCWD, path_.c_str(), W_OK | X_OK, AT_EACCESS) != 0) {
     throw UserError(
         fmt::format("cannot write to the output folder {}: {}", path_.string(), std::strerror(errno)));

@@ -12,6 +12,7 @@
 
 #include "platform/results/file_identity.hpp"
 #include "platform/results/file_index.hpp"
+#include "platform/results/folder_lock.hpp"
 #include "platform/results/output_file.hpp"
 
 namespace parallax {
@@ -29,13 +30,14 @@ struct FolderPlan {
 /// The folder of a run's results. Files are opened or written in any order and appear together at publish():
 /// a reader sees the whole set of a frame or none of it. What was not published when the folder is destroyed
 /// is removed, and so is a folder that this object made and that stayed empty. Nothing that this program did
-/// not write there is replaced or removed (FileIndex), and nothing that is an input.
+/// not write there is replaced or removed (FileIndex), and nothing that is an input. One writes there at a
+/// time (FolderLock).
 class OutputFolder {
  public:
   /// Makes the folder if need be. Throws UserError when that fails, when a file has that name, when the
-  /// folder cannot be written to, or when what is planned would cost a file that is an input or was not
-  /// written by this program: before any work is done, not after. Removes what earlier commands left half
-  /// written there.
+  /// folder cannot be written to, when another process writes there, or when what is planned would cost a
+  /// file that is an input or was not written by this program: before any work is done, not after. Removes
+  /// what earlier commands left half written there.
   explicit OutputFolder(std::filesystem::path path, FolderPlan plan = {});
   ~OutputFolder();
   OutputFolder(const OutputFolder&) = delete;
@@ -71,6 +73,7 @@ class OutputFolder {
   void remove_made();  ///< those that are empty
 
   std::filesystem::path path_;
+  std::optional<FolderLock> lock_;
   FolderPlan plan_;
   std::vector<std::string> old_;  ///< results that go at the first publish()
   std::optional<FileIndex> index_;

@@ -177,9 +177,11 @@ TEST(OutputFolder, ADamagedIndexNamesNothing) {
   temporary.write(
       ".parallax_files",
       "x\n\n3 zz disparity.png\n99999999999999999999999999 0 disparity.png\n3 0bb75bc4 ../mine/note.txt\n");
-  OutputFolder folder(temporary.path(), plan_of({"timing.json"}));
-  folder.write("timing.json", "new");
-  folder.publish();
+  {
+    OutputFolder folder(temporary.path(), plan_of({"timing.json"}));
+    folder.write("timing.json", "new");
+    folder.publish();
+  }
   EXPECT_EQ(temporary.read("disparity.png"), "old");
   EXPECT_EQ(temporary.read("mine/note.txt"), "old");
   fs::remove(temporary / ".parallax_files");
@@ -202,8 +204,9 @@ TEST(OutputFolder, RemovesWhatAProcessThatWasKilledLeft) {
   ::waitpid(child, &status, 0);
   EXPECT_EQ(entries(temporary.path()), 3U) << "two files and a folder";
   temporary.write(".movie.123.part", "mine");
-  OutputFolder running(temporary.path(), plan_of({}));
-  running.write("timing.json", "of one that lives");
+  // Of a process that lives, on another machine say, where this one's locks do not reach.
+  OutputFile running(temporary / "timing.json");
+  running.write("of one that lives");
   {
     OutputFolder folder(temporary.path(), plan_of({}));
     EXPECT_EQ(entries(temporary.path()), 2U);
@@ -211,6 +214,46 @@ TEST(OutputFolder, RemovesWhatAProcessThatWasKilledLeft) {
   }
   running.publish();
   EXPECT_EQ(temporary.read("timing.json"), "of one that lives");
+}
+
+TEST(OutputFolder, OneWritesThereAtATime) {
+  TemporaryFolder temporary;
+  const std::string path = temporary / "results";
+  const std::string refused =
+      "another parallax is writing to " + path + "; wait until it ends, or choose another folder";
+  {
+    OutputFolder first(path, plan_of({"timing.json"}));
+    EXPECT_EQ(error_of([&] { OutputFolder second(path, plan_of({"timing.json"})); }), refused);
+    EXPECT_EQ(error_of([&] { OutputFolder second(path + "/../results/"); }).rfind("another parallax", 0), 0U);
+    first.write("timing.json", "first");
+    first.publish();
+    EXPECT_EQ(error_of([&] { OutputFolder second(path, plan_of({"timing.json"})); }), refused);
+  }
+  const pid_t child = ::fork();
+  if (child == 0) {
+    OutputFolder killed(path, plan_of({"timing.json"}));
+    ::kill(::getpid(), SIGKILL);
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  OutputFolder last(path, plan_of({"timing.json"}));
+  last.write("timing.json", "last");
+  last.publish();
+  EXPECT_EQ(temporary.read("results/timing.json"), "last");
+}
+
+TEST(OutputFolder, AFolderThatWasRemovedIsNotTheOneThatIsLocked) {
+  TemporaryFolder temporary;
+  const std::string path = temporary / "results";
+  fs::create_directory(path);
+  const FolderLock lock(path);
+  EXPECT_TRUE(lock.is_at(path));
+  fs::remove(path);
+  EXPECT_FALSE(lock.is_at(path));
+  fs::create_directory(path);
+  EXPECT_FALSE(lock.is_at(path));
+  const FolderLock other(path);
+  EXPECT_TRUE(other.is_at(path));
 }
 
 TEST(OutputFolder, LeavesNothingOfARunThatFailed) {

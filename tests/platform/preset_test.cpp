@@ -87,7 +87,7 @@ TEST_F(PresetTest, NamesWhatNoKeyCanHold) {
 
 TEST_F(PresetTest, ReportsFilesThatCannotBeRead) {
   std::filesystem::create_directory(folder_ / "dir.toml");
-  EXPECT_EQ(error(folder_ / "dir.toml"), folder_ / "dir.toml: is a folder, not a preset file");
+  EXPECT_EQ(error(folder_ / "dir.toml"), folder_ / "dir.toml is a folder, expected a preset file");
   EXPECT_EQ(error(folder_ / "none.toml"), "preset file " + (folder_ / "none.toml") + " does not exist");
   const std::string locked = folder_.write("locked.toml", "");
   ::chmod(folder_.path().c_str(), 0755);
