@@ -107,7 +107,8 @@ cv::Mat read_npy(const std::vector<std::uint8_t>& bytes, const std::string& name
   const ArrayLayout layout = layout_of(bytes, name);
   using Read =
       cv::Mat (*)(const std::vector<std::uint8_t>&, const ArrayLayout&, const cv::Size&, const std::string&);
-  static const std::pair<const char*, Read> types[] = {{"f4", values<float, float>},
+  static const std::pair<const char*, Read> types[] = {{"f2", values<cv::float16_t, float>},
+                                                       {"f4", values<float, float>},
                                                        {"f8", values<double, double>},
                                                        {"u1", values<std::uint8_t, std::uint8_t>},
                                                        {"u2", values<std::uint16_t, std::uint16_t>},
@@ -120,9 +121,10 @@ cv::Mat read_npy(const std::vector<std::uint8_t>& bytes, const std::string& name
   const auto* const found = std::find_if(std::begin(types), std::end(types),
                                          [&](const auto& type) { return layout.type == type.first; });
   if (found == std::end(types)) {
-    throw UserError(fmt::format(
-        "{}: a NumPy array of the type '{}', expected float32, float64 or integers of 8 to 64 bits", name,
-        excerpt(layout.type)));
+    throw UserError(
+        fmt::format("{}: a NumPy array of the type '{}', expected floating point of 16 to 64 bits or "
+                    "integers of 8 to 64 bits",
+                    name, excerpt(layout.type)));
   }
   const cv::Size size = size_of_shape(layout, name);
   check(size);

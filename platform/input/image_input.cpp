@@ -63,11 +63,20 @@ ImageInput::ImageInput(std::vector<ImagePair> pairs, const ImageChoice& choice, 
     require_image_file(pair.left.string(), "image");
     require_image_file(pair.right.string(), "image");
   }
-  load(0);
+  note_same(load(0));
   if (choice_.bits && bits_ == 0) {
     throw UserError(fmt::format("--image-bits is for 16-bit images, but {} and its partner have 8 bits",
                                 pairs_.front().left.string()));
   }
+}
+
+// But for pictures of one value, which say nothing.
+void ImageInput::note_same(const StereoImages& images) const {
+  double least = 0, most = 0;
+  cv::minMaxLoc(images.left, &least, &most);
+  if (!notice_ || least == most || cv::norm(images.left, images.right, cv::NORM_INF) != 0) return;
+  notice_(fmt::format("the left image {} and the right image {} are the same picture",
+                      pairs_.front().left.string(), pairs_.front().right.string()));
 }
 
 StereoImages ImageInput::load(std::size_t frame) {

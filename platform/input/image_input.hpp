@@ -51,6 +51,7 @@ class ImageInput {
 
  private:
   StereoImages read_mono(const ImagePair& pair);
+  void note_same(const StereoImages& images) const;
   void choose_bits(std::size_t frame, const StereoImages& images);
   cv::Mat to_mono(const cv::Mat& image, const std::filesystem::path& path);
   cv::Mat to_8_bit(const cv::Mat& mono, const std::filesystem::path& path) const;

@@ -68,6 +68,23 @@ void note_least_disparity(const Calibration& calibration, const NoticeSink& noti
       calibration.source, -calibration.geometry->doffs()));
 }
 
+// Of a file without a size that is for larger or smaller images nothing else tells.
+void note_principal_point(const Calibration& calibration, const NoticeSink& notice) {
+  if (!calibration.geometry) return;
+  const auto inside = [](double point, int side) {
+    constexpr double kLeast = 0.28, kMost = 0.72;  // of the side: images of half or twice the size are beyond
+    return point >= kLeast * side && point <= kMost * side;
+  };
+  const double x = calibration.geometry->cx_left, y = calibration.geometry->cy;
+  const ImageSize& size = calibration.size;
+  if (inside(x, size.width) || inside(y, size.height)) return;
+  notice(
+      fmt::format("{}: the principal point ({:.1f}, {:.1f}) is far from the middle of images of {}x{}: is "
+                  "the calibration "
+                  "for images of another size?",
+                  calibration.source, x, y, size.width, size.height));
+}
+
 Calibration given_calibration(const RunOptions& options, const OffsetRange& range, const FrameSource& source,
                               const NoticeSink& notice) {
   const ImageSize size{source.width(), source.height()};
@@ -75,6 +92,7 @@ Calibration given_calibration(const RunOptions& options, const OffsetRange& rang
       read_calibration(options.calibration, size, camera_pair("--cameras", options.cameras));
   check_size(calibration, size);
   if (!calibration.choice.empty()) notice(fmt::format("{}: {}", calibration.source, calibration.choice));
+  note_principal_point(calibration, notice);
   if (options.fit) {
     if (const std::optional<Fit> found = fit(calibration, range)) {
       notice(found->text());

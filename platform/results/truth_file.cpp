@@ -172,6 +172,26 @@ std::vector<float> disparities(const cv::Mat& values, double scale) {
   return result;
 }
 
+// Of a truth without a disparity.
+void check_sign(const std::string& path, const cv::Mat& values) {
+  double least = 0, most = 0;
+  cv::minMaxLoc(values, &least, &most);
+  if (least < 0 && most <= 0) {
+    throw UserError(fmt::format(
+        "{}: no value is above 0, the least is {:g}: a disparity is x_left - x_right, and not negative", path,
+        least));
+  }
+}
+
+// Of a mask by which nothing counts.
+void check_mask(const std::string& path, const std::vector<std::uint8_t>& mask) {
+  constexpr int kScore = 255;
+  const int most = mask.empty() ? kScore : *std::max_element(mask.begin(), mask.end());
+  if (most != kScore)
+    throw UserError(
+        fmt::format("{}: marks no pixel: {} says score, its largest value is {}", path, kScore, most));
+}
+
 }  // namespace
 
 GroundTruth read_ground_truth(const TruthFiles& files, int width, int height, const Notice& notice) {
@@ -191,6 +211,8 @@ GroundTruth read_ground_truth(const TruthFiles& files, int width, int height, co
   bool any = false;
   for (std::size_t i = 0; i < result.disparity.size() && !any; ++i) any = result.scored(i);
   if (!any) {
+    check_sign(files.truth, values.image);
+    check_mask(files.mask, result.mask);
     throw UserError(fmt::format("{}: no pixel to score; every disparity is unknown{}", files.truth,
                                 files.mask.empty() ? "" : " or masked by " + files.mask));
   }

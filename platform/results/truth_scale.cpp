@@ -35,32 +35,66 @@ double common_scale(double scale) {
   return scale;
 }
 
-}  // namespace
-
-std::optional<double> better_truth_scale(const std::vector<Disparity>& found, const GroundTruth& truth) {
+// Those that are scored and have a disparity, when hardly any agrees with the truth and there are enough.
+std::vector<Both> disagreeing(const std::vector<Disparity>& found, const GroundTruth& truth) {
   constexpr std::size_t kFewest = 100;
-  constexpr double kHardly = 0.25, kMost = 0.5;
+  constexpr double kHardly = 0.25;
   std::vector<Both> pixels;
   for (std::size_t i = 0; i < found.size(); ++i) {
     if (truth.scored(i) && found[i].valid() && in_pixels(found[i]) > 0)
       pixels.push_back({in_pixels(found[i]), truth.disparity[i]});
   }
-  if (pixels.size() < kFewest || agreeing(pixels, 1) >= kHardly) return std::nullopt;
+  if (pixels.size() < kFewest || agreeing(pixels, 1) >= kHardly) pixels.clear();
+  return pixels;
+}
+
+constexpr double kMost = 0.5;
+
+// The middle pixel in the order of a number that each has.
+template <class Number>
+Both middle_by(std::vector<Both> pixels, const Number& number) {
   const auto middle = pixels.begin() + static_cast<std::ptrdiff_t>(pixels.size() / 2);
   std::nth_element(pixels.begin(), middle, pixels.end(),
-                   [](const Both& a, const Both& b) { return a.truth * b.found < b.truth * a.found; });
-  const double scale = common_scale(truth.scale * middle->truth / middle->found);
+                   [&](const Both& a, const Both& b) { return number(a) < number(b); });
+  return *middle;
+}
+
+// What disparity and depth multiplied are, if the truth is depth.
+std::optional<double> focal_times_baseline(const std::vector<Disparity>& found, const GroundTruth& truth) {
+  std::vector<Both> pixels = disagreeing(found, truth);
+  if (pixels.empty()) return std::nullopt;
+  const auto product = [](const Both& pixel) { return pixel.found * pixel.truth; };
+  const double middle = product(middle_by(pixels, product));
+  for (Both& pixel : pixels) pixel.truth = middle / pixel.truth;
+  if (agreeing(pixels, 1) < kMost) return std::nullopt;
+  return middle;
+}
+
+}  // namespace
+
+std::optional<double> better_truth_scale(const std::vector<Disparity>& found, const GroundTruth& truth) {
+  const std::vector<Both> pixels = disagreeing(found, truth);
+  if (pixels.empty()) return std::nullopt;
+  const Both middle = middle_by(pixels, [](const Both& pixel) { return pixel.truth / pixel.found; });
+  const double scale = common_scale(truth.scale * middle.truth / middle.found);
   if (agreeing(pixels, truth.scale / scale) < kMost) return std::nullopt;
   return scale;
 }
 
 std::string truth_scale_notice(const std::vector<Disparity>& found, const GroundTruth& truth) {
-  const auto scale = better_truth_scale(found, truth);
-  if (!scale) return {};
-  return fmt::format(
-      "the ground truth looks like one of another scale: nearly all of it is off by one factor, and "
-      "--ground-truth-scale {:.4g} instead of {:g} would fit",
-      *scale, truth.scale);
+  if (const auto scale = better_truth_scale(found, truth)) {
+    return fmt::format(
+        "the ground truth looks like one of another scale: nearly all of it is off by one factor, and "
+        "--ground-truth-scale {:.4g} instead of {:g} would fit",
+        *scale, truth.scale);
+  }
+  if (const auto product = focal_times_baseline(found, truth)) {
+    return fmt::format(
+        "the ground truth looks like depth, not like disparities: both multiplied are {0:.4g} nearly "
+        "everywhere, and disparity = {0:.4g} / depth",
+        *product);
+  }
+  return {};
 }
 
 }  // namespace parallax

@@ -14,7 +14,8 @@ namespace parallax {
 /// the other one. A common scale (1, 2, 4, 8, 16, 256, ...) where one is within 6 %. Nothing otherwise.
 std::optional<double> better_truth_scale(const std::vector<Disparity>& found, const GroundTruth& truth);
 
-/// One line for the user, empty when there is nothing to say.
+/// One line for the user, also when the truth would agree if it were depth; empty when there is nothing to
+/// say.
 std::string truth_scale_notice(const std::vector<Disparity>& found, const GroundTruth& truth);
 
 }  // namespace parallax

@@ -6,6 +6,7 @@
 
 #include "tests/cli/program.hpp"
 #include "tests/paths.hpp"
+#include "tests/platform/python.hpp"
 
 namespace parallax::test {
 namespace input_hints_test {
@@ -61,6 +62,44 @@ TEST_F(InputHints, AGroundTruthOfAnotherScale) {
             "one factor, "
             "and --ground-truth-scale 256 instead of 16 would fit\n");
   EXPECT_EQ(said("--size 320x240"), "") << "the built-in scene has no scale";
+}
+
+TEST_F(InputHints, DepthInThePlaceOfDisparity) {
+  if (!python_has("numpy, PIL")) GTEST_SKIP() << "no python3-numpy or python3-pil";
+  ASSERT_EQ(program_("scene --rectified --size 320x240 --out in").code, 0);
+  python(program_.folder(),
+         "import numpy as np\nfrom PIL import Image\n"
+         "d = np.array(Image.open('in/disp_gt.png')) / 256\n"
+         "np.save('depth.npy', np.where(d > 0, 28.8 / np.maximum(d, 1e-3), 0))\n");
+  const std::string line =
+      said("--left in/left.png --right in/right.png --ground-truth depth.npy --ground-truth-scale 1");
+  EXPECT_EQ(line.rfind("parallax: note: the ground truth looks like depth, not like disparities: both "
+                       "multiplied are 28.",
+                       0),
+            0U)
+      << line;
+}
+
+TEST_F(InputHints, TheSamePictureTwice) {
+  ASSERT_EQ(program_("scene --rectified --size 64x48 --disparities 32 --out in").code, 0);
+  EXPECT_EQ(
+      said("-d 32 --left in/left.png --right in/left.png"),
+      "parallax: note: the left image in/left.png and the right image in/left.png are the same picture\n");
+}
+
+// The scene's own calibration in KITTI's form, which has no size: of the images, and of those of twice the
+// size.
+TEST_F(InputHints, ACalibrationForImagesOfAnotherSize) {
+  ASSERT_EQ(program_("scene --rectified --size 64x48 --disparities 32 --out in").code, 0);
+  const std::string pair = "-d 32 --left in/left.png --right in/right.png --calibration calib.txt";
+  program_.folder().write("calib.txt",
+                          "P0: 48 0 31.5 0 0 48 23.5 0 0 0 1 0\nP1: 48 0 31.5 -6 0 48 23.5 0 0 0 1 0\n");
+  EXPECT_EQ(said(pair), "");
+  program_.folder().write("calib.txt",
+                          "P0: 96 0 63 0 0 96 47 0 0 0 1 0\nP1: 96 0 63 -12 0 96 47 0 0 0 1 0\n");
+  EXPECT_EQ(said(pair),
+            "parallax: note: calib.txt: the principal point (63.0, 47.0) is far from the middle of images of "
+            "64x48: is the calibration for images of another size?\n");
 }
 
 }  // namespace input_hints_test

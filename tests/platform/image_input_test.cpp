@@ -201,7 +201,7 @@ TEST(ImageInput, ColourBecomesMonoAndIsSaidOnce) {
   }
 }
 
-/// The images of a sequence of one image as left and right, as 8 bits, and what was said.
+/// The left images of a sequence whose right ones are upside down, as 8 bits, and what was said.
 struct Taken {
   std::vector<cv::Mat> frames;
   std::vector<std::string> notices;
@@ -211,8 +211,12 @@ Taken take(const TemporaryFolder& folder, const std::vector<cv::Mat>& images, st
   std::vector<ImagePair> pairs;
   for (std::size_t i = 0; i < images.size(); ++i) {
     const fs::path path = folder / (std::to_string(i) + ".png");
+    const fs::path other = folder / (std::to_string(i) + "_right.png");
+    cv::Mat right;
+    cv::flip(images[i], right, 0);
     save(path, images[i]);
-    pairs.push_back({path, path});
+    save(other, right);
+    pairs.push_back({path, other});
   }
   Taken taken;
   ImageInput input(pairs, {{}, bits, false}, [&](const std::string& n) { taken.notices.push_back(n); });
@@ -287,6 +291,23 @@ TEST(ImageInput, StatedBits) {
   EXPECT_EQ(error_line<UserError>([&] { take(folder, {cv::Mat(8, 8, CV_16UC1, cv::Scalar(1024))}, 10); }),
             "image " + (folder / "0.png") +
                 " holds the value 1024, beyond the 10 bits of --image-bits (at most 1023)");
+}
+
+TEST(ImageInput, TheSamePictureTwiceIsSaid) {
+  const TemporaryFolder folder;
+  save(folder / "a.png", grey(20, 10));
+  save(folder / "b.bmp", grey(20, 10));
+  save(folder / "c.png", cv::Mat(10, 20, CV_8UC1, cv::Scalar(7)));
+  const auto said = [&](const std::string& left, const std::string& right) {
+    std::vector<std::string> notices;
+    ImageInput({{folder / left, folder / right}}, {}, [&](const std::string& n) { notices.push_back(n); });
+    return notices;
+  };
+  EXPECT_EQ(said("a.png", "b.bmp"),
+            (std::vector<std::string>{"the left image " + (folder / "a.png") + " and the right image " +
+                                      (folder / "b.bmp") + " are the same picture"}));
+  EXPECT_TRUE(said("c.png", "c.png").empty()) << "of one value";
+  EXPECT_TRUE(said("a.png", "c.png").empty());
 }
 
 TEST(ImageInput, SixteenBitsBesideEight) {

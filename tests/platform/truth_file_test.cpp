@@ -11,7 +11,6 @@
 #include "platform/images/image_codecs.hpp"
 #include "platform/images/stderr_capture.hpp"
 #include "platform/results/output_file.hpp"
-#include "platform/results/truth_scale.hpp"
 #include "tests/platform/error_of.hpp"
 #include "tests/platform/temporary_folder.hpp"
 
@@ -161,6 +160,11 @@ TEST_F(TruthFile, NumPyArrays) {
     EXPECT_EQ(disparities(npy(version, "<f4", false, "(3, 4)", ramp<float>(false))), expected);
   }
   EXPECT_EQ(disparities(npy(1, ">f4", false, "(3, 4)", ramp<float>(true))), expected);
+  // 1.0 is 0x3C00, 2.5 is 0x4100, 1000 is 0x63D0 (IEEE 754, binary16).
+  EXPECT_EQ(disparities(npy(1, "<f2", false, "(3, 4)",
+                            bytes_of<std::uint16_t>(0x3C00, false) + bytes_of<std::uint16_t>(0x4100, false) +
+                                bytes_of<std::uint16_t>(0x63D0, false) + std::string(18, '\0'))),
+            (Floats{1, 2.5, 1000, 0, 0, 0, 0, 0, 0, 0, 0, 0}));
   EXPECT_EQ(disparities(npy(1, "<f8", false, "(3, 4)", ramp<double>(false))), expected);
   EXPECT_EQ(disparities(npy(1, ">f8", false, "(3, 4)", ramp<double>(true))), expected);
   EXPECT_EQ(disparities(npy(1, "|u1", false, "(3, 4)", ramp<std::uint8_t>(false))), expected);
@@ -185,8 +189,10 @@ TEST_F(TruthFile, NumPyArraysThatAreNone) {
             "a.npy: a NumPy array of the shape (12,), expected (rows, columns)");
   EXPECT_EQ(error(npy(1, "<f4", false, "(3, 4, 3)", "")),
             "a.npy: a NumPy array of the shape (3, 4, 3), expected (rows, columns)");
-  EXPECT_EQ(error(npy(1, "<f2", false, "(3, 4)", std::string(24, 'x'))),
-            "a.npy: a NumPy array of the type 'f2', expected float32, float64 or integers of 8 to 64 bits");
+  EXPECT_EQ(
+      error(npy(1, "<c8", false, "(3, 4)", std::string(96, 'x'))),
+      "a.npy: a NumPy array of the type 'c8', expected floating point of 16 to 64 bits or integers of 8 "
+      "to 64 bits");
   EXPECT_EQ(error(npy(9, "<f4", false, "(3, 4)", "")),
             "a.npy: a NumPy array of format version 9, expected 1, 2 or 3");
   EXPECT_EQ(error(npy(1, "<f4", false, "(3, 4)", ramp<float>(false).substr(1))),
@@ -271,11 +277,6 @@ TEST_F(TruthFile, ColoursThatHoldValuesAsSintelPacksThem) {
   const std::string map = write("a.pfm", pfm("Pf\n4 3\n-1.0\n", false));
   EXPECT_EQ(error_of([&] { sintel(map); }),
             map + ": --ground-truth-encoding is for images, this is a float map");
-  EXPECT_EQ(truth_encoding(""), TruthEncoding::kValues);
-  EXPECT_EQ(truth_encoding("values"), TruthEncoding::kValues);
-  EXPECT_EQ(truth_encoding("sintel"), TruthEncoding::kSintel);
-  EXPECT_EQ(error_of([] { truth_encoding("kitti"); }),
-            "--ground-truth-encoding is 'kitti', expected values or sintel");
 }
 
 TEST_F(TruthFile, JpegIsSaidToChangeValues) {
@@ -307,7 +308,24 @@ TEST_F(TruthFile, Masks) {
             "WebP file");
   image("black.png", cv::Mat(3, 4, CV_8UC1, cv::Scalar(0)));
   EXPECT_EQ(complaint("truth.png", "black.png"),
-            "truth.png: no pixel to score; every disparity is unknown or masked by black.png");
+            "black.png: marks no pixel: 255 says score, its largest value is 0");
+  image("bool.png", cv::Mat(3, 4, CV_8UC1, cv::Scalar(1)));
+  EXPECT_EQ(complaint("truth.png", "bool.png"),
+            "bool.png: marks no pixel: 255 says score, its largest value is 1");
+  cv::Mat half(3, 4, CV_16UC1, cv::Scalar(0));
+  half.at<std::uint16_t>(0, 0) = 256;
+  image("half.png", half);
+  EXPECT_EQ(complaint("half.png", "mask.png"),
+            "half.png: no pixel to score; every disparity is unknown or masked by mask.png");
+}
+
+TEST_F(TruthFile, DisparitiesOfTheOtherSign) {
+  cv::Mat values(3, 4, CV_32FC1, cv::Scalar(-5));
+  values.at<float>(0, 0) = 0;
+  image("negative.tiff", values);
+  EXPECT_EQ(complaint("negative.tiff"),
+            "negative.tiff: no value is above 0, the least is -5: a disparity is x_left - x_right, and not "
+            "negative");
 }
 
 TEST_F(TruthFile, FilesThatAreNone) {
@@ -374,58 +392,6 @@ TEST_F(TruthFile, DamageAnywhereIsOneLineOrAnotherTruth) {
       EXPECT_TRUE(complaint("damaged") != "(no error)" || at + 4 >= whole.size()) << at;
     }
   }
-}
-
-/// 20 x 20 disparities from 4 px upwards, and the truth that a file of them times `stored` holds when it is
-/// read with the scale `assumed`.
-struct Scaled {
-  std::vector<Disparity> found;
-  GroundTruth truth;
-};
-
-Scaled scaled(double stored, double assumed) {
-  Scaled result;
-  result.truth = {20, 20, {}, {}, assumed};
-  for (int i = 0; i < 400; ++i) {
-    const int sixteenths = 64 + (i * 37) % 700;
-    result.found.push_back({static_cast<std::uint16_t>(sixteenths), Cause::kMatched});
-    result.truth.disparity.push_back(static_cast<float>(sixteenths / 16.0 * stored / assumed));
-  }
-  return result;
-}
-
-TEST(TruthScale, AScaleThatWouldFitIsNamed) {
-  for (const double stored : {1., 2., 3., 4., 8., 16., 100., 256., 1000.}) {
-    for (const double assumed : {1., 4., 16., 256.}) {
-      const Scaled scene = scaled(stored, assumed);
-      const auto better = better_truth_scale(scene.found, scene.truth);
-      if (stored == assumed) {
-        EXPECT_FALSE(better) << stored;
-      } else {
-        ASSERT_TRUE(better) << stored << " as " << assumed;
-        EXPECT_DOUBLE_EQ(*better, stored);
-      }
-    }
-  }
-  const Scaled odd = scaled(7.3, 256);
-  EXPECT_NEAR(better_truth_scale(odd.found, odd.truth).value_or(0), 7.3, 1e-3);
-  const Scaled scene = scaled(16, 256);
-  EXPECT_EQ(truth_scale_notice(scene.found, scene.truth),
-            "the ground truth looks like one of another scale: nearly all of it is off by one factor, and "
-            "--ground-truth-scale 16 instead of 256 would fit");
-}
-
-TEST(TruthScale, NothingIsSaidOfATruthThatFitsOrOfNone) {
-  Scaled noisy = scaled(256, 256);
-  for (std::size_t i = 0; i < 250; ++i) noisy.found[i].value = static_cast<std::uint16_t>(16 * (i % 90) + 8);
-  EXPECT_EQ(truth_scale_notice(noisy.found, noisy.truth), "") << "many are wrong, but by no one factor";
-  Scaled random = scaled(256, 256);
-  for (std::size_t i = 0; i < 400; ++i)
-    random.found[i].value = static_cast<std::uint16_t>((i * 7919) % 1900 + 16);
-  EXPECT_EQ(truth_scale_notice(random.found, random.truth), "") << "all is wrong";
-  Scaled few = scaled(16, 256);
-  for (std::size_t i = 50; i < 400; ++i) few.found[i].value = kInvalidDisparity;
-  EXPECT_EQ(truth_scale_notice(few.found, few.truth), "") << "too few to say";
 }
 
 }  // namespace truth_file_test
