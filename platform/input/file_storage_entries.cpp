@@ -91,6 +91,12 @@ std::vector<double> numbers_at(const cv::FileNode& node, const std::string& plac
   return values;
 }
 
+// OpenCV 4.6 takes a comment behind a word of YAML for a part of it.
+std::string without_comment(const std::string& text) {
+  const std::size_t comment = text.find(" #");
+  return comment == std::string::npos ? text : text.substr(0, text.find_last_not_of(' ', comment) + 1);
+}
+
 }  // namespace
 
 FileStorageEntries::FileStorageEntries(const std::vector<CalibrationRequest::File>& files) {
@@ -140,7 +146,7 @@ std::string FileStorageEntries::text(const Names& names, const std::string& othe
   std::optional<std::string> text;
   for (const Place& place : places(names)) {
     if (!place.node.isString()) throw UserError(place.name + " is not a text");
-    const auto here = static_cast<std::string>(place.node);
+    const std::string here = without_comment(static_cast<std::string>(place.node));
     if (text && *text != here) {
       throw UserError(fmt::format("{} contradicts the same entry elsewhere: {} and {}", place.name,
                                   in_quotes(here), in_quotes(*text)));

@@ -176,6 +176,9 @@ class Walk {
           continue;
         }
       }
+      if (typed && forced_.substr(0, 2) == "!!" && (here() == '-' || here() == '+') &&
+          (is_digit(at(at_ + 1)) || at(at_ + 1) == '.'))
+        return fail("a type before a number with a sign, which OpenCV takes for something else");
       const char c = here(), d = typed ? ' ' : at(at_ + 1);
       const bool sign = c == '-' || c == '+';
       const bool number = is_digit(c) || (sign && (is_digit(d) || d == '.')) ||

@@ -195,6 +195,14 @@ TEST_F(OpenCvCalibration, WhatAFileSaysStaysInItsLine) {
                 "...\" is not pinhole_radtan, fisheye_equidistant or rectified");
 }
 
+TEST_F(OpenCvCalibration, ACommentBehindAWordIsNoPartOfIt) {
+  EXPECT_EQ(changed("camera_model", "camera_model: pinhole_radtan   # both"), "");
+  EXPECT_EQ(
+      read_calibration({write("c.yml", with_entry(SyntheticPair().text(), "T_unit", "T_unit: m # metres"))})
+          .unit,
+      "m");
+}
+
 TEST_F(OpenCvCalibration, AMissingFirstLineIsNamed) {
   const std::string text = SyntheticPair().text();
   for (const char* head : {"", "---\n", "# mine\n%YAML:1.0\n---\n"}) {

@@ -34,7 +34,6 @@ TEST(OpenCvYaml, CountsBlocks) {
   EXPECT_EQ(depth("a: -----\n"), 6U) << "a dash needs no blank behind it";
   EXPECT_EQ(depth("a:\n                                        b: 1\n"), 2U) << "an indentation may be wide";
   EXPECT_EQ(depth("a: !!map - - 1\n"), 3U);
-  EXPECT_EQ(depth("a: !!map -1\n"), 2U) << "behind a type a sign begins a list";
 }
 
 TEST(OpenCvYaml, CountsBrackets) {
@@ -87,6 +86,14 @@ TEST(OpenCvYaml, WhatFollowsTheDocumentIsAFault) {
       "their own");
 }
 
+TEST(OpenCvYaml, ATypeBeforeANumberWithASignIsAFault) {
+  const std::string list = "a type before a number with a sign, which OpenCV takes for something else";
+  EXPECT_EQ(fault(std::string(kHead) + "x: 1\na: !!float -1.5\n"), "line 4: " + list);
+  EXPECT_EQ(fault(std::string(kHead) + "a: [!!int +3]\n"), "line 3: " + list);
+  EXPECT_EQ(fault(std::string(kHead) + "a: !!float 1.5\n"), "");
+  EXPECT_EQ(fault(std::string(kHead) + "a: !float -1.5\nb: !!seq\n  - 1\nc: !!seq -\n"), "");
+}
+
 TEST(OpenCvYaml, RowsOfBase64) {
   const std::string rows = "  dt: f\n  data: !!binary |\n    AAAA\n    BB==\n";
   EXPECT_EQ(fault(kHead + ("a:\n" + rows + "b: 1\n")), "");
@@ -116,7 +123,7 @@ TEST(OpenCvYaml, IsAsDeepAsWhatOpenCvMakesOfIt) {
     for (std::size_t n = random() % 12; n > 0; --n) text += parts[random() % std::size(parts)];
     text += "\n";
     const OpenCvYaml seen = look_at_opencv_yaml(text);
-    ASSERT_EQ(seen.fault, "") << text;
+    if (!seen.fault.empty()) continue;  // a type before a number, with which OpenCV goes on all the same
     try {
       const cv::FileStorage file(text, cv::FileStorage::READ | cv::FileStorage::MEMORY);
       if (!file.isOpened()) continue;
