@@ -67,9 +67,9 @@ void add_run_command(CLI::App& app, CommandContext& context) {
 
   command
       .add_option("--calibration", options->calibration,
-                  "Calibration: OpenCV, ROS (two files, left and right), Kalibr, KITTI, Middlebury or "
-                  "VINS-Fusion, told "
-                  "by its content. Raw images are rectified by it, the point cloud has its scale")
+                  "Calibration: OpenCV, ROS (two files, left and right), Kalibr, KITTI, Middlebury, "
+                  "VINS-Fusion or ORB-SLAM, told by its content. Raw images are rectified by it, the point "
+                  "cloud has its scale")
       ->type_name("FILE")
       ->take_all()
       ->group("Rectification");

@@ -14,6 +14,7 @@
 #include "platform/input/kitti_raw_calibration.hpp"
 #include "platform/input/middlebury_calibration.hpp"
 #include "platform/input/opencv_calibration.hpp"
+#include "platform/input/orb_slam_calibration.hpp"
 #include "platform/input/ros_calibration.hpp"
 #include "platform/input/text_file.hpp"
 #include "platform/input/vins_calibration.hpp"
@@ -47,6 +48,7 @@ const std::array kFormats{
                       {"P_rect_", "K_"}},
     CalibrationFormat{"KITTI calib.txt", is_kitti_calibration, read_kitti_calibration, false, {"P"}},
     CalibrationFormat{"VINS camera model", is_vins_calibration, read_vins_calibration, true, {}},
+    CalibrationFormat{"ORB-SLAM3 settings", is_orb_slam_calibration, read_orb_slam_calibration, false, {}},
     CalibrationFormat{"OpenCV FileStorage", is_opencv_calibration, read_opencv_calibration, true, {}},
 };
 
@@ -54,7 +56,7 @@ constexpr const char* kKnownFormats =
     "OpenCV FileStorage (YAML with the first line %YAML:1.0, XML or JSON), ROS camera_info or EuRoC "
     "sensor.yaml (two files), Kalibr camchain, KITTI calib.txt or calib_cam_to_cam.txt, Middlebury "
     "calib.txt, "
-    "VINS-Fusion (its configuration, which names the files of both cameras)";
+    "VINS-Fusion (its configuration, which names the files of both cameras), ORB-SLAM3";
 
 // YAML with OpenCV's entries, but without its first line.
 bool lacks_head(const TopLevel& file, const std::string& text) {

@@ -110,6 +110,16 @@ void check_alike(const CameraInfo& left, const CameraInfo& right, const StatedCa
   }
 }
 
+// As the calibration of one camera leaves it.
+void check_pair_is_stated(const CameraInfo& info) {
+  if (info.entries.has(info.rotation) || info.entries.has(info.projection)) return;
+  throw UserError(
+      fmt::format("{} and {} are missing: they say how the cameras of a pair lie, which the calibration of "
+                  "one camera does "
+                  "not",
+                  info.entries.where(info.rotation), info.projection));
+}
+
 }  // namespace
 
 bool is_ros_calibration(const TopLevel& file) {
@@ -126,6 +136,8 @@ StatedCalibration read_ros_calibration(const CalibrationRequest& request) {
   }
   const CameraInfo left(request.files[0]);
   const CameraInfo right(request.files[1]);
+  check_pair_is_stated(left);
+  check_pair_is_stated(right);
   StatedCalibration stated;
   stated.source = request.source();
   stated.size = left.size;

@@ -176,7 +176,7 @@ TEST_F(CalibrationTest, WhatIsNoCalibrationIsNamed) {
             ": not a calibration of a known format: OpenCV FileStorage (YAML with the first line %YAML:1.0, "
             "XML or JSON), ROS camera_info or EuRoC sensor.yaml (two files), Kalibr camchain, KITTI "
             "calib.txt or calib_cam_to_cam.txt, Middlebury calib.txt, VINS-Fusion (its configuration, which "
-            "names the files of both cameras)");
+            "names the files of both cameras), ORB-SLAM3");
   }
   EXPECT_EQ(message([&] { read_calibration({path("none.yml")}); }),
             path("none.yml") + ": cannot read: No such file or directory");

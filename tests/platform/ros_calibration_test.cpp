@@ -170,6 +170,11 @@ TEST_F(RosCalibration, DamageIsNamed) {
   EXPECT_EQ(with("500., 0., 322., 0., 501., 238., 0., 0., 1.", "0, 0, 0, 0, 0, 0, 0, 0, 0"),
             "right.yaml: camera_matrix is zero: ROS writes that of a camera that is not calibrated");
   EXPECT_EQ(with("rectification_matrix", "rectification"), "right.yaml: rectification_matrix is missing");
+  const std::string alone = kRight.substr(0, kRight.find("rectification_matrix"));
+  EXPECT_EQ(
+      line(camera_info(), alone),
+      "right.yaml: rectification_matrix and projection_matrix are missing: they say how the cameras of a "
+      "pair lie, which the calibration of one camera does not");
   EXPECT_EQ(with("[1., 0., 0., 0., 1.", "[1., 0., 9., 0., 1."),
             "right.yaml: rectification_matrix: not a rotation matrix");
   EXPECT_EQ(with("camera_matrix:\n  rows: 3\n  cols: 3\n  data:", "camera_matrix: 7\nx:"),
