@@ -57,8 +57,8 @@ std::vector<ImagePair> pairs_of_list(const fs::path& list) {
     const ImagePair pair{list.parent_path() / paths[0], list.parent_path() / paths[1]};
     for (const fs::path& path : {pair.left, pair.right}) {
       if (!is_there(path)) {
-        throw UserError(
-            fmt::format("{}:{}: {} does not exist", list.string(), number, excerpt(path.string(), kLongestPath)));
+        throw UserError(fmt::format("{}:{}: {} does not exist", list.string(), number,
+                                    excerpt(path.string(), kLongestPath)));
       }
     }
     pairs.push_back(pair);
