@@ -24,6 +24,7 @@
 #include "platform/results/file_identity.hpp"
 #include "tlm/error.hpp"
 #include "traces/json_text.hpp"
+#include "traces/number_text.hpp"
 
 namespace parallax {
 
@@ -145,8 +146,8 @@ void add_encode(CLI::App& command, CommandContext& context) {
       return report(context, [&](std::ostream& out) {
         const EncodedMap map = encode(map_of(*options, context, out));
         write_map_file(options->output, map);
-        out << fmt::format("{}: {}x{} px, {} bytes, {:.3f} bytes per pixel and image\n", options->output,
-                           map.width, map.height, map.bytes.size(), map.bytes_per_pixel());
+        out << fmt::format("{}: {}x{} px, {} bytes, {} bytes per pixel and image\n", options->output,
+                           map.width, map.height, map.bytes.size(), number_text(map.bytes_per_pixel(), "B"));
       });
     };
   });

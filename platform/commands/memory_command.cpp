@@ -19,6 +19,7 @@
 #include "tlm/dram_replay.hpp"
 #include "tlm/error.hpp"
 #include "traces/json_text.hpp"
+#include "traces/metric_text.hpp"
 #include "traces/metrics.hpp"
 
 namespace parallax {
@@ -46,11 +47,8 @@ const std::map<std::string, DramMapping>& mappings() {
 std::string text(const MetricGroup& group) {
   std::string lines;
   for (const Metric& metric : group.metrics) {
-    const std::string value = std::holds_alternative<double>(metric.value)
-                                  ? fmt::format("{:.4f}", metric.number())
-                                  : fmt::format("{}", metric.count());
-    lines +=
-        fmt::format("{:16} {:>14}{}{}\n", metric.name, value, metric.unit.empty() ? "" : " ", metric.unit);
+    lines += fmt::format("{:16} {:>14}{}{}\n", metric.name, value_text(metric),
+                         metric.unit.empty() ? "" : " ", metric.unit);
   }
   return lines;
 }

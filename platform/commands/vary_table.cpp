@@ -5,12 +5,15 @@
 
 #include <algorithm>
 
+#include "traces/metric_text.hpp"
+#include "traces/number_text.hpp"
+
 namespace parallax {
 namespace {
 
 constexpr std::size_t kGainsShown = 3;
 
-// "core_clock +38.08 %; software +4.69 %": what limits, and what else gains alone.
+// "core_clock +38.1 %; software +4.69 %": what limits, and what else gains alone.
 std::string gains(const RelaxedLimits& limits) {
   std::vector<const RelaxedLimit*> shown;
   if (limits.limit) shown.push_back(&*limits.limit);
@@ -21,7 +24,8 @@ std::string gains(const RelaxedLimits& limits) {
   if (shown.empty()) return "none";
   std::string text;
   for (std::size_t i = 0; i < std::min(shown.size(), kGainsShown); ++i)
-    text += fmt::format("{}{} {:+.2f} %", i == 0 ? "" : "; ", shown[i]->relaxation.name, shown[i]->gain);
+    text += fmt::format("{}{} {} %", i == 0 ? "" : "; ", shown[i]->relaxation.name,
+                        change_text(shown[i]->gain, "%"));
   return text;
 }
 
@@ -57,9 +61,14 @@ std::string VaryTable::row(std::size_t point, const EvaluationResult& result,
   if (!result.done()) return line + fmt::format("  {}: {}\n", name(result.status), result.advice());
   if (range_varies_) line += fmt::format("  {:>11}", result.disparities);
   if (result.rate == 0) return line + "  one frame has no rate\n";
-  line += fmt::format("  {:>7.2f} fps  {:>8.3f} ms  ", result.rate, result.latency.exposure_to_host);
+  const MetricGroup& metrics = result.metrics;
+  line += fmt::format("  {:>11}  {:>11}  ", metric_text(metrics.at("performance/frame_rate")),
+                      metric_text(metrics.at("latency/exposure_to_host_mean")));
   if (limits != nullptr) return line + gains(*limits) + "\n";
-  return line + fmt::format("{} at {:.1f} %\n", result.limit.part, result.limit.utilisation);
+  // Where no part limits, the utilisation is that of the busiest one.
+  return line + filled_in(metrics, metrics.word("limit/part") == "none"
+                                       ? "none; {limit/next_part} at {limit/utilisation}\n"
+                                       : "{limit/part} at {limit/utilisation}\n");
 }
 
 }  // namespace parallax

@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
+
+#include "platform/results/percent_change.hpp"
+#include "traces/number_text.hpp"
 
 namespace parallax {
 namespace {
@@ -17,11 +19,11 @@ Json metric(double value, const char* unit, const char* description) {
 }
 
 void add_rates(Json& entry, double frame_rate, double latency) {
-  entry["frame_rate"] =
-      metric(frame_rate, "frames/s", "Steady-state rate at which the host receives frames.");
-  entry["latency"] =
-      metric(latency, "ms",
-             "From the end of exposure to the frame's last bit at the host, mean of the steady state.");
+  entry["frame_rate"] = metric(frame_rate, "frames/s", "Steady-state rate at which frames are done.");
+  entry["latency"] = metric(
+      latency, "ms",
+      "From the end of exposure to the frame's last bit at the host, or, where the link is off, to its "
+      "results in memory; mean of the steady state.");
 }
 
 Json entry_of(const RelaxedLimit& limit) {
@@ -48,8 +50,7 @@ RelaxedLimit relaxed_limit(const EvaluationResult& base, const Relaxation& relax
   if (limit.measured) {
     limit.frame_rate = result.rate;
     limit.latency = result.latency.exposure_to_host;
-    // To a thousandth of a percent: what is less are the roundings of a period.
-    limit.gain = std::round(1e5 * (limit.frame_rate / base.rate - 1)) / 1e3 + 0.0;
+    limit.gain = percent_change(base.rate, limit.frame_rate);
     limit.next_part = result.limit.part;
   } else {
     limit.message = result.message.substr(0, result.message.find('\n'));
@@ -64,12 +65,14 @@ std::string to_text(const RelaxedLimits& limits) {
   std::size_t width = 20;
   for (const RelaxedLimit* row : rows) width = std::max(width, row->relaxation.name.size() + 2);
   std::string lines =
-      fmt::format("{:{}}{:>9}  {:>15}  {:>8}\n{:{}}{:>9.2f} fps {:>11.3f} ms\n", "limit taken away", width,
-                  "frame rate", "latency", "gain", "none", width, limits.frame_rate, limits.latency);
+      fmt::format("{:{}}{:>11}  {:>13}  {:>8}\n{:{}}{:>13}  {:>13}\n", "limit taken away", width,
+                  "frame rate", "latency", "gain", "none", width,
+                  quantity_text(limits.frame_rate, "frames/s"), quantity_text(limits.latency, "ms"));
   for (const RelaxedLimit* row : rows) {
     lines += row->measured
-                 ? fmt::format("{:{}}{:>9.2f} fps {:>11.3f} ms  {:>+6.2f} %  {}\n", row->relaxation.name,
-                               width, row->frame_rate, row->latency, row->gain, row->relaxation.meaning)
+                 ? fmt::format("{:{}}{:>13}  {:>13}  {:>8}  {}\n", row->relaxation.name, width,
+                               quantity_text(row->frame_rate, "frames/s"), quantity_text(row->latency, "ms"),
+                               change_text(row->gain, "%") + " %", row->relaxation.meaning)
                  : fmt::format("{:{}}{}\n", row->relaxation.name, width, row->message);
   }
   return lines + fmt::format("{:{}}{}\n", "limit", width, limits.limit_name());

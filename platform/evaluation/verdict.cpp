@@ -13,6 +13,7 @@
 #include "platform/evaluation/trials.hpp"
 #include "platform/machine/part.hpp"
 #include "platform/results/rate_metrics.hpp"
+#include "traces/number_text.hpp"
 
 namespace parallax {
 namespace {
@@ -32,14 +33,16 @@ std::string sentence_of_all(const EvaluationResult& base, const RelaxedLimits& l
   if (found.relaxation.limits.size() > 1) {
     text = fmt::format("{} limit together", found.relaxation.subject);
   } else if (busy && relieves_the_busiest(found.relaxation, base)) {
-    text = fmt::format("{} limits at {:.1f} %", part, base.limit.utilisation);
+    text = fmt::format("{} limits at {}", part, quantity_text(base.limit.utilisation, "%"));
   } else {
     text = found.relaxation.subject + " limits";
     if (busy)
-      text += fmt::format(", though {} is at work for {:.1f} % of the time", part, base.limit.utilisation);
+      text += fmt::format(", though {} is at work for {} of the time", part,
+                          quantity_text(base.limit.utilisation, "%"));
   }
-  text += fmt::format("; {} {} {:.1f} fps", found.relaxation.remedy,
-                      found.relaxation.limits.size() > 1 ? "give" : "gives", found.frame_rate);
+  text += fmt::format("; {} {} {}", found.relaxation.remedy,
+                      found.relaxation.limits.size() > 1 ? "give" : "gives",
+                      quantity_text(found.frame_rate, "frames/s"));
   if (found.next_part == "none") return text + ", and then no part limits alone";
   if (found.next_part == base.limit.part) return text + fmt::format(", and {} still limits", part);
   return text + fmt::format(", then {} limits", spoken(found.next_part));

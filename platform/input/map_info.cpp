@@ -10,6 +10,7 @@
 #include "modules/map_decoder.hpp"
 #include "modules/map_file.hpp"
 #include "tlm/units.hpp"
+#include "traces/number_text.hpp"
 
 namespace parallax {
 
@@ -54,14 +55,15 @@ std::string MapInfo::text(bool rows) const {
   std::string out = fmt::format(
       "size                    {}x{} px\n"
       "window                  {} px (-{}..+{}), {} fraction bits\n"
-      "stream                  {} bytes, {:.3f} bytes per pixel and image (at most {:.3f})\n"
+      "stream                  {} bytes, {} bytes per pixel and image (at most {})\n"
       "file                    {} bytes\n"
-      "largest offsets, left   {:.2f} px horizontally, {:.2f} px vertically\n"
-      "largest offsets, right  {:.2f} px horizontally, {:.2f} px vertically\n"
-      "bytes per row           {} least, {:.1f} mean, {} largest, {} worst case\n",
+      "largest offsets, left   {} px horizontally, {} px vertically\n"
+      "largest offsets, right  {} px horizontally, {} px vertically\n"
+      "bytes per row           {} least, {} mean, {} largest, {} worst case\n",
       width, height, range.window, range.reach(), range.reach(), range.fraction_bits, stream_bytes,
-      bytes_per_pixel, worst, file_bytes, left.x, left.y, right.x, right.y, least_row, mean_row, largest_row,
-      worst_row);
+      number_text(bytes_per_pixel, "B"), number_text(worst, "B"), file_bytes, number_text(left.x, "px"),
+      number_text(left.y, "px"), number_text(right.x, "px"), number_text(right.y, "px"), least_row,
+      number_text(mean_row, "B"), largest_row, worst_row);
   if (rows) {
     for (std::size_t y = 0; y < row_bytes.size(); ++y) {
       out += fmt::format("row {:5}  {} bytes\n", y, row_bytes[y]);

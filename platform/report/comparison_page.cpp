@@ -5,8 +5,8 @@
 
 #include <vector>
 
+#include "traces/metric_text.hpp"
 #include "traces/report/html.hpp"
-#include "traces/report/metric_text.hpp"
 #include "traces/report/report_page.hpp"
 
 namespace parallax {

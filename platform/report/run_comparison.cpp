@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "platform/report/run_comparison.hpp"
-#include "traces/json_text.hpp"
 
 #include <fmt/format.h>
 
@@ -11,6 +10,9 @@
 #include <map>
 #include <optional>
 #include <utility>
+
+#include "traces/json_text.hpp"
+#include "traces/number_text.hpp"
 
 namespace parallax {
 namespace {
@@ -78,14 +80,21 @@ std::vector<Difference> differences(const Leaves& a, const Leaves& b) {
   return all;
 }
 
+// Values of the configuration have no unit here, and all their digits.
 std::string text_of(const Json& value, const std::string& unit) {
   if (value.is_null()) return "-";
-  if (value.is_number_float())
-    return fmt::format("{:.{}f}{}", value.get<double>(), unit == "%" ? 1 : 3, unit.empty() ? "" : " " + unit);
+  if (value.is_number_float() && !unit.empty()) return quantity_text(value.get<double>(), unit);
   std::string text = value.is_string() ? value.get<std::string>() : json_text(value);
   constexpr std::size_t kLongest = 40;
   if (text.size() > kLongest) text = text.substr(0, kLongest - 3) + "...";
   return unit.empty() ? text : text + " " + unit;
+}
+
+// Two numbers that differ are not said to be the same.
+std::string text_beside(const Json& value, const Json& other, const std::string& unit) {
+  std::string text = text_of(value, unit);
+  const bool says_same = value.is_number_float() && text == text_of(other, unit);
+  return says_same ? with_unit(json_text(value), unit) : text;
 }
 
 std::string line(const Difference& d) {
@@ -195,10 +204,10 @@ std::optional<double> RunComparison::Difference::change() const {
 
 std::string RunComparison::Difference::change_text() const {
   const std::optional<double> percent = change();
-  return percent ? fmt::format("{:+.1f} %", *percent) : "";
+  return percent ? parallax::change_text(*percent, "%") + " %" : "";
 }
 
-std::string RunComparison::Difference::text_a() const { return text_of(a, unit); }
-std::string RunComparison::Difference::text_b() const { return text_of(b, unit); }
+std::string RunComparison::Difference::text_a() const { return text_beside(a, b, unit); }
+std::string RunComparison::Difference::text_b() const { return text_beside(b, a, unit); }
 
 }  // namespace parallax

@@ -9,6 +9,8 @@
 
 #include "platform/config/configuration.hpp"
 #include "platform/config/preset.hpp"
+#include "platform/results/percent_change.hpp"
+#include "traces/number_text.hpp"
 
 namespace parallax {
 namespace {
@@ -83,7 +85,7 @@ std::vector<Sensitivity> sensitivities(const std::vector<ValidatedRow>& rows,
     const ScaledRow& scaling = scalings[i];
     Sensitivity& sensitivity = result[scaling.key];
     (scaling.factor < 1 ? sensitivity.lower : sensitivity.higher)[scaling.row] =
-        100 * (moved[i].predicted / rows[scaling.row].predicted - 1);
+        percent_change(rows[scaling.row].predicted, moved[i].predicted);
   }
   return result;
 }
@@ -100,7 +102,7 @@ std::string table(const std::vector<ValidatedRow>& rows, const std::vector<Sensi
   for (std::size_t i = 0; i < rows.size(); ++i) {
     lines += fmt::format("{:<{}}", rows[i].row.name, width);
     for (const Sensitivity& s : sensitivities) {
-      lines += fmt::format("  {:>+8.2f} % {:>+8.2f} %", s.lower[i], s.higher[i]);
+      lines += fmt::format("  {:>8} % {:>8} %", change_text(s.lower[i], "%"), change_text(s.higher[i], "%"));
     }
     lines += '\n';
   }

@@ -14,6 +14,7 @@
 #include "platform/input/image_padding.hpp"
 #include "platform/machine/tile_plan.hpp"
 #include "tlm/error.hpp"
+#include "traces/number_text.hpp"
 
 namespace parallax {
 namespace {
@@ -160,19 +161,20 @@ bool all_within(const std::vector<ValidatedRow>& rows) {
 std::string table(const std::vector<ValidatedRow>& rows) {
   std::size_t width = 3;
   for (const ValidatedRow& row : rows) width = std::max(width, row.row.name.size());
-  std::string lines = fmt::format("{:<{}}  {:>10}  {:>10}  {:<9} {:>9}  {:>15}       limit\n", "row", width,
+  std::string lines = fmt::format("{:<{}}  {:>14}  {:>14}  {:<9} {:>9}  {:>15}       limit\n", "row", width,
                                   "published", "predicted", "unit", "deviation", "tolerance");
   for (const ValidatedRow& validated : rows) {
     const PublishedRow& row = validated.row;
     const char* const verdict = validated.within ? "ok " : "OUT";
     if (row.refused || validated.predicted == 0) {
-      lines += fmt::format("{:<{}}  {:>10}  {:>10}  {:<9} {:>9}  {:>15}  {}  {}\n", row.name, width,
-                           row.refused ? "too large" : fmt::format("{:.6g}", row.published), "-", row.unit,
+      lines += fmt::format("{:<{}}  {:>14}  {:>14}  {:<9} {:>9}  {:>15}  {}  {}\n", row.name, width,
+                           row.refused ? "too large" : stated_text(row.published, row.unit), "-", row.unit,
                            "-", "-", verdict, validated.limit);
       continue;
     }
-    lines += fmt::format("{:<{}}  {:>10.6g}  {:>10.5g}  {:<9} {:>+7.2f} %  {:>15}  {}  {}\n", row.name, width,
-                         row.published, validated.predicted, row.unit, validated.deviation,
+    lines += fmt::format("{:<{}}  {:>14}  {:>14}  {:<9} {:>7} %  {:>15}  {}  {}\n", row.name, width,
+                         stated_text(row.published, row.unit), number_text(validated.predicted, row.unit),
+                         row.unit, change_text(validated.deviation, "%"),
                          fmt::format("{:+g} to {:+g} %", row.least, row.most), verdict, validated.limit);
   }
   return lines;

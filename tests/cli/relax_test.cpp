@@ -132,7 +132,7 @@ TEST_F(Verdict, SaysWhatTakingTheLimitAwayGives) {
   const double rate = tree["performance"]["frame_rate"]["value"];
   EXPECT_EQ(
       host["verdict"]["value"],
-      fmt::format("host limits at 100.0 %; a host of any rate gives {:.1f} fps, then core limits", rate));
+      fmt::format("host limits at 100.0 %; a host of any rate gives {:.2f} fps, then core limits", rate));
 }
 
 TEST_F(Verdict, LooksOnWhereTheBusiestPartGainsNothing) {

@@ -83,11 +83,11 @@ TEST_F(MapCommand, InfoPrintsAPage) {
   EXPECT_EQ(run({"map", "info", path("i.map"), "--rows"}),
             "size                    64x3 px\n"
             "window                  79 px (-39..+39), 5 fraction bits\n"
-            "stream                  24 bytes, 0.062 bytes per pixel and image (at most 3.062)\n"
+            "stream                  24 bytes, 0.0625 bytes per pixel and image (at most 3.06)\n"
             "file                    68 bytes\n"
-            "largest offsets, left   0.00 px horizontally, 0.00 px vertically\n"
-            "largest offsets, right  0.00 px horizontally, 0.00 px vertically\n"
-            "bytes per row           8 least, 8.0 mean, 8 largest, 392 worst case\n"
+            "largest offsets, left   0 px horizontally, 0 px vertically\n"
+            "largest offsets, right  0 px horizontally, 0 px vertically\n"
+            "bytes per row           8 least, 8 mean, 8 largest, 392 worst case\n"
             "row     0  8 bytes\n"
             "row     1  8 bytes\n"
             "row     2  8 bytes\n");

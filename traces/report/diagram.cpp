@@ -150,9 +150,9 @@ std::string draw_node(const Diagram::Node& node, const Point& center) {
     const double width = share.share * (kNodeWidth - 24);
     if (width > 0)
       svg += fmt::format(
-          "<rect class=\"{}\" x=\"{:.2f}\" y=\"{:.1f}\" width=\"{:.2f}\" height=\"7\"><title>{} {:.1f} "
-          "%</title></rect>",
-          share.style, at, y + 43, width, share.style, 100 * share.share);
+          "<rect class=\"{}\" x=\"{:.2f}\" y=\"{:.1f}\" width=\"{:.2f}\" height=\"7\"><title>{} "
+          "{}</title></rect>",
+          share.style, at, y + 43, width, share.style, escaped(share.text));
     at += width;
   }
   return svg + (leads ? "</a>\n" : "</g>\n");

@@ -14,6 +14,7 @@ struct Diagram {
   struct Share {
     std::string style;  ///< a class of report.css
     double share = 0;   ///< 0..1
+    std::string text;   ///< what it says: "9.8 %"
   };
   struct Node {
     std::string id;

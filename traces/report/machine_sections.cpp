@@ -7,8 +7,10 @@
 #include <vector>
 
 #include "traces/json_text.hpp"
+#include "traces/metric_text.hpp"
+#include "traces/number_text.hpp"
 #include "traces/report/html.hpp"
-#include "traces/report/metric_text.hpp"
+#include "traces/report/page_text.hpp"
 #include "traces/report/sections.hpp"
 
 namespace parallax {
@@ -21,8 +23,11 @@ std::string select_box(const char* id, const char* label, const std::string& opt
                      id, options);
 }
 
-std::string percentile_cell(const MetricGroup& tree, const std::string& path) {
-  return tree.find(path) == nullptr ? "" : number_text(tree.number(path), 3);
+// A span's name, which ends at the host, of a machine that has none.
+std::string span_words(const MetricGroup& tree, const std::string& span) {
+  constexpr std::string_view kHost = "_host";
+  if (span.size() < kHost.size() || span.substr(span.size() - kHost.size()) != kHost) return words(span);
+  return words(span.substr(0, span.size() - kHost.size())) + " " + end_of_way(tree);
 }
 
 }  // namespace
@@ -36,16 +41,14 @@ std::string memory_section(const ReportInput& input) {
                "largest", "stalls caused"});
   for (const Metric& metric : memory->metrics) {
     summary += fmt::format("{}{} {}", summary.empty() ? "" : "; ",
-                           term(words(metric.name), metric.description), escaped(metric_text(metric)));
+                           term(words(metric.name), metric.description), page_text(metric));
   }
   for (const MetricGroup& port : memory->groups) {
-    std::vector<std::string> cells = {
-        escaped(words(port.name)), number_text(port.number_or("bytes_per_frame", 0), 0),
-        number_text(port.number_or("bandwidth", 0), 1), fmt::format("{:.2f} %", port.number_or("share", 0))};
+    std::vector<std::string> cells = {escaped(words(port.name)), page_number(port, "bytes_per_frame"),
+                                      page_number(port, "bandwidth"), page_text(port, "share")};
     for (const char* latency : {"mean", "p50", "p95", "p99", "largest"})
-      cells.push_back(number_text(port.number_or(fmt::format("latency_{}", latency), 0), 0));
-    const Metric* const stalls = port.find("stalls");
-    cells.push_back(stalls == nullptr ? "" : escaped(metric_text(*stalls)));
+      cells.push_back(page_number(port, fmt::format("latency_{}", latency)));
+    cells.push_back(page_text(port, "stalls"));
     table.row(cells);
   }
   std::string html = fmt::format("<p>{}</p>\n{}", summary, table.html());
@@ -54,7 +57,7 @@ std::string memory_section(const ReportInput& input) {
   html += "<h3>Bandwidth by port over a frame's period</h3>\n" +
           canvas("chart-memory", "Bandwidth of each port over a frame's period");
   Table totals("Over this period, each port's bandwidth in bins of " +
-                   number_text(frame.at("bin").get<double>() / 1e6, 1) + " us",
+                   page_number(frame.at("bin").get<double>() / 1e6, "us") + " us",
                {"port", "mean, MB/s", "largest bin, MB/s"});
   for (const auto& [port, bins] : frame.at("bandwidth").items()) {
     double sum = 0, most = 0;
@@ -62,8 +65,8 @@ std::string memory_section(const ReportInput& input) {
       sum += bin.get<double>();
       most = std::max(most, bin.get<double>());
     }
-    totals.row(
-        {escaped(words(port)), number_text(sum / static_cast<double>(bins.size()), 1), number_text(most, 1)});
+    totals.row({escaped(words(port)), page_number(sum / static_cast<double>(bins.size()), "MB/s"),
+                page_number(most, "MB/s")});
   }
   html += totals.html();
   if (!frame.at("rows").contains("map")) return html;
@@ -72,9 +75,9 @@ std::string memory_section(const ReportInput& input) {
           canvas("chart-map", "Bytes and latency of each row of the rectification map");
   Table rows("", {"row", "bytes", "latency of its bursts, ns: mean", "longest"});
   for (std::size_t i = 0; i < map.at("bytes").size(); ++i)
-    rows.row({std::to_string(i), number_text(map.at("bytes").at(i).get<double>(), 0),
-              number_text(map.at("latency_mean").at(i).get<double>() / 1e3, 1),
-              number_text(map.at("latency_longest").at(i).get<double>() / 1e3, 1)});
+    rows.row({std::to_string(i), page_number(map.at("bytes").at(i).get<double>(), "B"),
+              page_number(map.at("latency_mean").at(i).get<double>() / 1e3, "ns"),
+              page_number(map.at("latency_longest").at(i).get<double>() / 1e3, "ns")});
   return html + "<details><summary>As a table</summary>\n" + rows.html() + "</details>\n";
 }
 
@@ -85,17 +88,18 @@ std::string latency_section(const ReportInput& input) {
   const std::string suffix = "_first_frame";
   std::string options;
   const auto option = [&](const std::string& name, const char* unit) {
-    options += fmt::format("<option value=\"{}\" data-unit=\"{}\"{}>{}</option>", escaped(name), unit,
-                           name == "exposure_to_host" ? " selected" : "", escaped(words(name)));
+    options +=
+        fmt::format("<option value=\"{}\" data-unit=\"{}\"{}>{}</option>", escaped(name), unit,
+                    name == "exposure_to_host" ? " selected" : "", escaped(span_words(input.metrics, name)));
   };
   const Json counts = input.profile.is_object() ? input.profile.value("latency", Json()) : Json();
   for (const Metric& metric : latency->metrics) {
     const std::string& key = metric.name;
     if (key.size() <= suffix.size() || key.substr(key.size() - suffix.size()) != suffix) continue;
     const std::string span = key.substr(0, key.size() - suffix.size());
-    std::vector<std::string> cells = {metric_term(*latency, key, words(span))};
+    std::vector<std::string> cells = {metric_term(*latency, key, span_words(input.metrics, span))};
     for (const char* what : {"first_frame", "mean", "p50", "p95", "p99", "largest"})
-      cells.push_back(percentile_cell(*latency, fmt::format("{}_{}", span, what)));
+      cells.push_back(page_number(*latency, fmt::format("{}_{}", span, what)));
     table.row(cells);
     if (counts.contains(span) && !counts.at(span).at("count").empty()) option(span, "ms");
   }
@@ -112,13 +116,13 @@ std::string latency_section(const ReportInput& input) {
 
 std::string limits_section(const ReportInput& input) {
   if (!input.relaxations.is_object()) return "";
-  Table table(
-      "One limit taken away at a time, and the machine run again",
-      {"limit taken away", "frames/s", "gain", "exposure to host, ms", "limits then", "meaning", "settings"},
-      "words");
+  Table table("One limit taken away at a time, and the machine run again",
+              {"limit taken away", "frames/s", "gain", "exposure to " + end_of_way(input.metrics) + ", ms",
+               "limits then", "meaning", "settings"},
+              "words");
   const MetricGroup base = metrics_of(input.relaxations.at("base"));
-  table.row({"none", number_text(base.number("frame_rate"), 2), "", number_text(base.number("latency"), 3),
-             "", "the machine as it is", ""});
+  table.row({"none", page_number(base.at("frame_rate")), "", page_number(base.at("latency")), "",
+             "the machine as it is", ""});
   const std::string limit = input.relaxations.value("limit", "");
   for (const Json& entry : input.relaxations.at("relaxations")) {
     const std::string name = entry.value("name", "");
@@ -131,10 +135,9 @@ std::string limits_section(const ReportInput& input) {
     }
     const MetricGroup numbers = metrics_of(entry);
     table.row(
-        {escaped(words(name)), number_text(numbers.number("frame_rate"), 2),
-         fmt::format("{:+.2f}&nbsp;%", numbers.number("gain") + 0.0),
-         number_text(numbers.number("latency"), 3), escaped(words(entry.value("next_part", ""))),
-         escaped(entry.value("meaning", "")),
+        {escaped(words(name)), page_number(numbers.at("frame_rate")),
+         change_text(numbers.number("gain"), "%") + "&nbsp;%", page_number(numbers.at("latency")),
+         escaped(words(entry.value("next_part", ""))), escaped(entry.value("meaning", "")),
          settings.size() < 80 ? escaped(settings)
                               : "<details><summary>all streams</summary>" + escaped(settings) + "</details>"},
         name == limit ? "class=\"limits\"" : "");
@@ -151,8 +154,8 @@ std::string energy_section(const ReportInput& input) {
   for (const Metric& metric : energy->metrics) {
     if (metric.name.rfind(prefix, 0) != 0) continue;
     const std::string part = metric.name.substr(prefix.size());
-    table.row({escaped(words(part)), number_text(metric.number(), 3),
-               number_text(energy->number("frame_" + part), 3), escaped(metric.description)});
+    table.row({escaped(words(part)), page_number(metric), page_number(energy->at("frame_" + part)),
+               escaped(metric.description)});
   }
   return canvas("chart-energy", "Estimated power of each part") + table.html();
 }
@@ -161,7 +164,7 @@ namespace {
 
 void add_numbers(Table& table, const MetricGroup& group, const std::string& path) {
   for (const Metric& metric : group.metrics) {
-    table.row({escaped(path + metric.name), escaped(metric_text(metric)), escaped(metric.description),
+    table.row({escaped(path + metric.name), page_text(metric), escaped(metric.description),
                escaped(metric.window)});
   }
   for (const MetricGroup& child : group.groups) add_numbers(table, child, path + child.name + "/");

@@ -2,8 +2,10 @@
 // What a reader looks at first: figures, images, and whether it is what was published.
 #include <fmt/format.h>
 
+#include "traces/metric_text.hpp"
+#include "traces/number_text.hpp"
 #include "traces/report/html.hpp"
-#include "traces/report/metric_text.hpp"
+#include "traces/report/page_text.hpp"
 #include "traces/report/sections.hpp"
 
 namespace parallax {
@@ -11,24 +13,12 @@ namespace {
 
 std::string card(const std::string& value, const std::string& name) {
   return fmt::format("<div class=\"card\"><div class=\"value\">{}</div><div class=\"name\">{}</div></div>\n",
-                     escaped(value), name);
+                     value, name);
 }
 
-std::string card(const MetricGroup& tree, const char* path, const char* name) {
-  const Metric* const metric = tree.find(path);
-  return metric == nullptr ? "" : card(metric_text(*metric), metric_term(tree, path, name));
-}
-
-std::string large_number(double value, const std::string& unit) {
-  if (value >= 1e9) return escaped(fmt::format("{:.3g} billion {}", value / 1e9, unit));
-  if (value >= 1e6) return escaped(fmt::format("{:.3g} million {}", value / 1e6, unit));
-  return escaped(fmt::format("{:.5g} {}", value, unit));
-}
-
-std::string per_second(const MetricGroup& tree, const char* path, double unit, const char* unit_name,
-                       const char* name) {
-  if (tree.find(path) == nullptr) return "";
-  return card(number_text(tree.number(path) / unit, 2) + " " + unit_name, metric_term(tree, path, name));
+std::string card(const MetricGroup& tree, const std::string& path, const std::string& name) {
+  const std::string value = page_text(tree, path);
+  return value.empty() ? "" : card(value, metric_term(tree, path, name));
 }
 
 std::string stuck_banner(const MetricGroup& deadlock) {
@@ -39,8 +29,8 @@ std::string stuck_banner(const MetricGroup& deadlock) {
                          escaped(wait.word("state")), wait.count("depth"), escaped(wait.word("waits_for")));
   }
   return fmt::format(
-      "<div class=\"verdict stuck\" role=\"alert\"><b>The machine got stuck</b> before the host had all "
-      "frames.\n<ol>{}</ol>\n<b>Remedy:</b> {}</div>\n",
+      "<div class=\"verdict stuck\" role=\"alert\"><b>The machine got stuck</b> before all frames were "
+      "done.\n<ol>{}</ol>\n<b>Remedy:</b> {}</div>\n",
       waits, escaped(deadlock.word("remedy")));
 }
 
@@ -48,8 +38,10 @@ std::string verdict_banner(const MetricGroup& tree) {
   if (const MetricGroup* const deadlock = tree.find_group("deadlock")) return stuck_banner(*deadlock);
   std::string sentence = tree.word_or("limit/verdict", "");
   if (sentence.empty() && tree.find("limit/part") != nullptr) {
-    sentence =
-        fmt::format("{} at {:.1f} % of the time", tree.word("limit/part"), tree.number("limit/utilisation"));
+    sentence = filled_in(tree, tree.word("limit/part") == "none"
+                                   ? "no part is at work all the time; the busiest, {limit/next_part}, is at "
+                                     "{limit/utilisation}"
+                                   : "{limit/part} at {limit/utilisation} of the time");
   }
   return sentence.empty() ? "" : fmt::format("<p class=\"verdict\">{}</p>\n", escaped(sentence));
 }
@@ -68,27 +60,24 @@ std::string overview(const ReportInput& input) {
   html += verdict_banner(tree);
   html += "<div class=\"cards\">\n";
   if (tree.number_or("performance/frame_rate", 0) > 0) {
-    html += card(number_text(tree.number("performance/frame_rate"), 2) + " fps",
-                 metric_term(tree, "performance/frame_rate", "frame rate"));
-    html += per_second(tree, "performance/evaluations_per_second", 1e9, "billion/s", "disparity evaluations");
-    html += per_second(tree, "performance/disparities_per_second", 1e6, "million/s", "disparities");
+    html += card(tree, "performance/frame_rate", "frame rate");
+    html += card(tree, "performance/evaluations_per_second", "disparity evaluations");
+    html += card(tree, "performance/disparities_per_second", "disparities");
   }
   html += card(tree, "latency/first_pixel_first_frame", "first pixel, first frame");
   html += card(tree, "latency/last_pixel_first_frame", "last pixel, first frame");
-  html += card(tree, "latency/exposure_to_host_mean", "exposure to host, mean");
+  html += card(tree, "latency/exposure_to_host_mean", "exposure to " + end_of_way(tree) + ", mean");
   if (tree.find("memory/bandwidth") != nullptr) {
-    html += card(fmt::format("{} of {} MB/s", number_text(tree.number("memory/bandwidth"), 0),
-                             number_text(tree.number_or("memory/usable_bandwidth", 0), 0)),
+    const std::string usable = page_text(tree, "memory/usable_bandwidth");
+    html += card(usable.empty() ? page_text(tree, "memory/bandwidth")
+                                : page_number(tree, "memory/bandwidth") + " of " + usable,
                  metric_term(tree, "memory/bandwidth", "memory bandwidth"));
   }
-  if (tree.find("energy/power_total") != nullptr) {
-    html += card(number_text(tree.number("energy/power_total"), 2) + " W",
-                 metric_term(tree, "energy/power_total", "power, an estimate"));
-  }
+  html += card(tree, "energy/power_total", "power, an estimate");
   if (const MetricGroup* const quality = tree.find_group("quality")) {
     for (const Metric& metric : quality->metrics) {
       if (metric.name == "coverage" || metric.name.rfind("bad_3", 0) == 0 || metric.name == "mean_error")
-        html += card(metric_text(metric), metric_term(*quality, metric.name, words(metric.name)));
+        html += card(*quality, metric.name, words(metric.name));
     }
   }
   return html + "</div>\n";
@@ -113,10 +102,10 @@ std::string budget_section(const ReportInput& input) {
       {"published for", "figure", "published", "this run", "deviation", "verdict", "source"}, "words");
   for (const BudgetLine& line : input.budget) {
     std::vector<std::string> cells = {escaped(line.name), escaped(words(line.metric)),
-                                      large_number(line.published, line.unit)};
+                                      escaped(with_unit(stated_text(line.published, line.unit), line.unit))};
     if (line.reached) {
-      cells.push_back(large_number(*line.reached, line.unit));
-      cells.push_back(fmt::format("{:+.2f} %", line.deviation));
+      cells.push_back(escaped(with_unit(page_number(*line.reached, line.unit), line.unit)));
+      cells.push_back(change_text(line.deviation, "%") + " %");
       cells.push_back(line.within ? "<span class=\"pass\">pass</span>" : "<span class=\"fail\">fail</span>");
     } else {
       cells.insert(cells.end(), {"", "", "<span class=\"soft\">another size or range</span>"});

@@ -4,14 +4,18 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
+#include <map>
 #include <set>
 #include <string>
 #include <string_view>
 
 #include "traces/json_text.hpp"
+#include "traces/metric_text.hpp"
+#include "traces/number_text.hpp"
 #include "traces/report/diagram.hpp"
 #include "traces/report/html.hpp"
-#include "traces/report/metric_text.hpp"
+#include "traces/report/page_text.hpp"
 #include "traces/report/sections.hpp"
 
 namespace parallax {
@@ -68,10 +72,11 @@ Diagram::Node stage_node(const MetricGroup& tree, const MetricGroup& stage) {
   node.title = stage.name;
   node.target = "stage-" + stage.name;
   node.line = fmt::format(
-      "{} cycles/px, {:.1f} %", number_text(stage.number("cycles_per_frame") / std::max(pixels, 1.0), 2),
-      tree.find_group("deadlock") != nullptr ? share(stage, "busy") : stage.number("utilisation"));
+      "{} cycles/px, {}", page_number(stage.number("cycles_per_frame") / std::max(pixels, 1.0), "cycles/px"),
+      plain_text(stage.at(tree.find_group("deadlock") != nullptr ? "busy_share" : "utilisation")));
   for (const ActivityTitle& activity : kActivities)
-    node.shares.push_back({activity.name, share(stage, activity.name) / 100});
+    node.shares.push_back({activity.name, share(stage, activity.name) / 100,
+                           plain_text(stage.at(fmt::format("{}_share", activity.name)))});
   return node;
 }
 
@@ -118,7 +123,7 @@ class PipelineDiagram {
     } else {
       node.title = words(short_name(path));
       const Metric* const load = tree_.find("limit/utilisation_by_part/" + name);
-      if (load != nullptr) node.line = metric_text(*load);
+      if (load != nullptr) node.line = plain_text(*load);
     }
     node.id = path;
     if (waiters_.count(path) != 0) node.mark = Diagram::Mark::kWaits;
@@ -134,7 +139,7 @@ class PipelineDiagram {
       return;
     Diagram::Node node;
     node.id = node.title = words(part);
-    node.line = fmt::format("{:.1f} %, limits", tree_.number("limit/utilisation"));
+    node.line = filled_in(tree_, "{limit/utilisation}, limits");
     node.mark = Diagram::Mark::kLimits;
     diagram_.nodes.push_back(std::move(node));
   }
@@ -146,7 +151,8 @@ class PipelineDiagram {
     const double mean = stream.number("mean_occupancy");
     edge.gauge =
         Diagram::Gauge{std::min(1.0, mean / depth), std::min(1.0, stream.number("high_water") / depth)};
-    edge.line = fmt::format("{} of {}", number_text(mean, mean < 10 ? 1 : 0), number_text(depth, 0));
+    edge.line =
+        fmt::format("{} of {}", page_number(stream.at("mean_occupancy")), page_number(stream.at("depth")));
     add_wait(stream.name, edge);
     diagram_.edges.push_back(std::move(edge));
   }
@@ -180,7 +186,7 @@ std::string parts_table(const MetricGroup& tree) {
     const double load = metric.number();
     const bool limits = metric.name == limit;
     table.row(
-        {term(words(metric.name), metric.description), fmt::format("{:.1f} %", load),
+        {term(words(metric.name), metric.description), page_text(metric),
          fmt::format("<span class=\"bar\"><i class=\"busy\" style=\"width:{:.1f}%\"></i></span>", load)},
         limits ? "class=\"limits\"" : "");
   }
@@ -225,11 +231,11 @@ std::string stages_section(const ReportInput& input) {
                          share(stage, activity.name));
     const nlohmann::ordered_json::json_pointer interval("/" + stage.name + "/interval");
     std::vector<std::string> cells = {
-        escaped(stage.name), number_text(stage.number("cycles_per_frame"), 0),
+        escaped(stage.name), page_number(stage.at("cycles_per_frame")),
         input.configuration.contains(interval) ? escaped(json_text(input.configuration.at(interval))) : "1",
-        fmt::format("{:.1f} %", stage.number("utilisation")), bar + "</span>"};
+        page_text(stage.at("utilisation")), bar + "</span>"};
     for (const ActivityTitle& activity : kActivities)
-      cells.push_back(fmt::format("{:.1f} %", share(stage, activity.name)));
+      cells.push_back(page_text(stage.at(fmt::format("{}_share", activity.name))));
     table.row(cells, fmt::format("id=\"stage-{}\"{}", escaped(stage.name),
                                  stage.name == limit ? " class=\"limits\"" : ""));
   }
@@ -253,12 +259,11 @@ std::string fifos_section(const ReportInput& input) {
   double most = -1;
   for (const MetricGroup& stream : streams) {
     const double depth = stream.number("depth");
-    table.row({escaped(stream.name), number_text(depth, 0), escaped(metric_text(stream.at("width"))),
-               escaped(stream.word("kind")), number_text(stream.number("mean_occupancy"), 1),
-               number_text(stream.number("high_water"), 0), fmt::format("{:.1f} %", stream.number("full")),
-               fmt::format("{:.1f} %", stream.number("empty")),
-               escaped(metric_text(stream.at("blocked_on_full"))),
-               escaped(metric_text(stream.at("starved_on_empty")))});
+    table.row({escaped(stream.name), page_number(stream.at("depth")), page_text(stream.at("width")),
+               escaped(stream.word("kind")), page_number(stream.at("mean_occupancy")),
+               page_number(stream.at("high_water")), page_text(stream.at("full")),
+               page_text(stream.at("empty")), page_text(stream.at("blocked_on_full")),
+               page_text(stream.at("starved_on_empty"))});
     const double interest = depth + (stuck.count(stream.name) != 0 ? 1e9 : 0);
     if (interest > most) shown = stream.name;
     most = std::max(most, interest);
@@ -277,24 +282,32 @@ std::string storage_section(const ReportInput& input) {
   const MetricGroup& tree = input.metrics;
   Table table(
       "Memory on the chip, as declared: line buffers and the like of the stages, and the FIFOs (depth times "
-      "width). How a device packs them into blocks is not said here.",
-      {"part", "line buffers", "its FIFOs to other stages", "together"});
+      "width) at the part that writes them, those of the DMA engines, sensors and link as well. How a device "
+      "packs "
+      "them into blocks is not said here.",
+      {"part", "line buffers", "FIFOs that it writes", "together"});
+  const auto row = [&table](const std::string& name, double lines, double fifos) {
+    const auto kibibits = [](double bits) { return page_number(bits / 1024, "Kibit") + " Kibit"; };
+    table.row({name, kibibits(lines), kibibits(fifos), kibibits(lines + fifos)});
+  };
+  std::map<std::string, double> of_writer;  // bits, by the writer's path
+  for (const MetricGroup& stream : tree.group_at("streams").groups)
+    of_writer[stream.word("writer")] += stream.number("depth") * stream.number("width");
   double all_lines = 0, all_fifos = 0;
-  const auto kibibits = [](double bits) { return number_text(bits / 1024, 1) + " Kibit"; };
+  for (const auto& [writer, bits] : of_writer) all_fifos += bits;
   for (const MetricGroup& stage : tree.group_at("stages").groups) {
-    const double lines = stage.number("storage");
     double fifos = 0;
-    for (const MetricGroup& stream : tree.group_at("streams").groups) {
-      const std::string& writer = stream.word("writer");
-      if (writer.substr(writer.rfind('.') + 1) == stage.name)
-        fifos += stream.number("depth") * stream.number("width");
+    for (auto it = of_writer.begin(); it != of_writer.end();) {
+      const bool own = it->first.substr(it->first.rfind('.') + 1) == stage.name;
+      fifos += own ? it->second : 0;
+      it = own ? of_writer.erase(it) : std::next(it);
     }
-    all_lines += lines;
-    all_fifos += fifos;
-    table.row({escaped(stage.name), kibibits(lines), kibibits(fifos), kibibits(lines + fifos)});
+    all_lines += stage.number("storage");
+    row(escaped(stage.name), stage.number("storage"), fifos);
   }
   if (table.empty()) return "";
-  table.row({"<b>all</b>", kibibits(all_lines), kibibits(all_fifos), kibibits(all_lines + all_fifos)});
+  for (const auto& [writer, bits] : of_writer) row(escaped(words(short_name(writer))), 0, bits);
+  row("<b>all</b>", all_lines, all_fifos);
   return table.html();
 }
 

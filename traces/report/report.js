@@ -15,12 +15,6 @@
   const charts = [];
 
   const number = (x, digits) => x.toLocaleString("en", { maximumFractionDigits: digits, minimumFractionDigits: digits });
-  const shown = (metric) => {
-    const x = metric.value;
-    if (typeof x !== "number") return String(x);
-    const digits = Number.isInteger(x) ? 0 : metric.unit === "%" ? 1 : Math.abs(x) < 10 ? 3 : 1;
-    return number(x, digits) + (metric.unit ? " " + metric.unit : "");
-  };
 
   function chart(id, make) {
     const canvas = document.getElementById(id);
@@ -170,13 +164,13 @@
     };
     for (const [key, metric] of Object.entries(stage)) {
       if (activities.includes(key)) continue;  // the shares say it
-      add(key, metric.description, shown(metric));
+      add(key, metric.description, data.texts.stages[name][key]);
     }
     for (const [stream, numbers] of Object.entries(data.streams)) {
       const ends = [value(numbers.writer), value(numbers.reader)].map((path) => path.split(".").pop());
       if (!ends.includes(name)) continue;
       add((ends[0] === name ? "to " : "from ") + stream, "Tokens held on average, of the FIFO's depth.",
-        number(value(numbers.mean_occupancy), 1) + " of " + value(numbers.depth));
+        data.texts.held[stream]);
     }
     const heading = document.createElement("h3");
     heading.textContent = name;

@@ -9,7 +9,7 @@
 #include "traces/json_text.hpp"
 #include "traces/report/assets.hpp"
 #include "traces/report/html.hpp"
-#include "traces/report/metric_text.hpp"
+#include "traces/report/page_text.hpp"
 #include "traces/report/sections.hpp"
 
 namespace parallax {
@@ -56,6 +56,18 @@ std::string script_safe(const std::string& json) {
   return text;
 }
 
+// What a click shows of a stage and of the FIFOs beside it: numbers are rounded here, and nowhere else.
+Json texts_of(const MetricGroup& tree) {
+  Json texts{{"stages", Json::object()}, {"held", Json::object()}};
+  for (const MetricGroup& stage : tree.group_at("stages").groups) {
+    for (const Metric& metric : stage.metrics) texts["stages"][stage.name][metric.name] = plain_text(metric);
+  }
+  for (const MetricGroup& stream : tree.group_at("streams").groups)
+    texts["held"][stream.name] =
+        page_number(stream.at("mean_occupancy")) + " of " + page_number(stream.at("depth"));
+  return texts;
+}
+
 }  // namespace
 
 std::string html_page(const std::string& title, const std::string& body, const Json& data) {
@@ -82,6 +94,7 @@ std::string report_page(const ReportInput& input) {
   for (const char* group : {"stages", "streams", "energy"}) {
     if (const MetricGroup* const found = tree.find_group(group)) data[group] = to_json(*found);
   }
+  data["texts"] = texts_of(tree);
   if (!input.profile.is_null()) data["profile"] = input.profile;
   if (!input.relaxations.is_null()) data["relaxations"] = input.relaxations;
   const std::string body = fmt::format(
