@@ -11,6 +11,7 @@
 #include "platform/machine/when_both.hpp"
 #include "tlm/error.hpp"
 #include "tlm/time_resolution.hpp"
+#include "traces/number_text.hpp"
 
 namespace parallax {
 namespace {
@@ -82,9 +83,9 @@ Acquisition::Acquisition(const sc_core::sc_module_name& name, const MachineConfi
                                                config.camera.overlap ? "beside" : "before", least.count());
       throw UserError(
           fmt::format("camera.frame_rate = {}: reading out {}x{} px takes {} pixel clocks{}, which allows at "
-                      "most {:.2f} frames/s",
+                      "most {} frames/s",
                       config.camera.frame_rate, input.width, input.height, read_out.count(), exposing,
-                      1 / clock.seconds(least)));
+                      number_text(1 / clock.seconds(least), "frames/s")));
     }
   }
   SC_HAS_PROCESS(Acquisition);
@@ -215,6 +216,11 @@ void Acquisition::expose_next() {
   }
 }
 
+// When the frame that is exposed now would have been without jitter: of the last trigger that was counted.
+sc_core::sc_time Acquisition::due() const {
+  return trigger_ ? clock_.time_of(trigger_->due(counts_.triggers - 1)) : exposed_;
+}
+
 DmaJob Acquisition::image_job(std::uint64_t address, bool values, int rows) const {
   DmaJob job;
   job.address = address;
@@ -225,7 +231,7 @@ DmaJob Acquisition::image_job(std::uint64_t address, bool values, int rows) cons
 
 void Acquisition::expose(std::int64_t frame) {
   const StereoFrame images = frame < input_.frames && input_.expose ? input_.expose(frame) : StereoFrame{};
-  hooks_.exposed(frame, images.left != nullptr);
+  hooks_.exposed(frame, due(), images.left != nullptr);
   const std::function<void()> done = when_both([this, frame] {
     hooks_.in_memory(frame);
     frame_complete_.notify();

@@ -33,7 +33,8 @@ class Acquisition final : public sc_core::sc_module {
  public:
   /// Told of each frame, in order.
   struct Hooks {
-    std::function<void(std::int64_t frame, bool values)> exposed;  ///< `values`: it carries images
+    /// `due`: when it would have been exposed without jitter; `values`: it carries images.
+    std::function<void(std::int64_t frame, const sc_core::sc_time& due, bool values)> exposed;
     std::function<void(std::int64_t frame)> begun;  ///< the first bytes of an image are in memory
     std::function<void(std::int64_t frame)>
         startable;  ///< as much of both images as the core waits for is there
@@ -68,6 +69,7 @@ class Acquisition final : public sc_core::sc_module {
   bool note_trigger();
   Cycles next_on_demand() const;
   bool next_is_faulty();
+  sc_core::sc_time due() const;
   CameraFault found_fault(const Received& left, const Received& right) const;
   void expose_next();
   void expose(std::int64_t frame);

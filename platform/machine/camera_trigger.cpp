@@ -23,10 +23,8 @@ CameraTrigger::CameraTrigger(const CameraConfig& config, Hertz clock)
       jitter_(Ratio(clock.count(), kNano).floor(config.jitter_ns)),
       seed_(config.jitter_seed) {}
 
-Cycles CameraTrigger::exposed(std::int64_t k) const {
-  const std::uint64_t count = k;
-  const std::uint64_t late = jitter_ == 0 ? 0 : scene_hash(seed_, count) % (jitter_ + 1);
-  return Cycles(period_.floor(count) + late);
+Cycles CameraTrigger::late(std::int64_t k) const {
+  return Cycles(jitter_ == 0 ? 0 : scene_hash(seed_, k) % (jitter_ + 1));
 }
 
 }  // namespace parallax

@@ -18,7 +18,10 @@ class CameraTrigger {
   CameraTrigger(const CameraConfig& config, Hertz clock);
 
   /// End of the exposure of trigger `k` (>= 0).
-  Cycles exposed(std::int64_t k) const;
+  Cycles exposed(std::int64_t k) const { return due(k) + late(k); }
+  /// The same without jitter, and what jitter adds.
+  Cycles due(std::int64_t k) const { return Cycles(period_.floor(k)); }
+  Cycles late(std::int64_t k) const;
   /// Shortest time between two triggers.
   Cycles period() const { return Cycles(period_.floor(1)); }
 

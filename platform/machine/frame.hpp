@@ -19,6 +19,7 @@ struct StereoFrame {
 /// When a frame reached the parts of the machine, in kernel time.
 struct FrameTimes {
   sc_core::sc_time exposed;          ///< end of exposure, read-out begins
+  sc_core::sc_time due;              ///< the same without what jitter added to it
   sc_core::sc_time first_byte;       ///< the first burst of either image in memory
   sc_core::sc_time startable;        ///< as much of both images in memory as the core waits for: all, or
                                      ///< camera.early_start_rows of them

@@ -21,7 +21,9 @@ const std::vector<FrameSpan>& frame_spans() {
       {"first_byte_to_last_pixel",
        "from the frame's first byte in memory to its last disparity out of the last filter",
        &FrameTimes::first_byte, &FrameTimes::last_disparity},
-      {"first_byte_to_host", "from the frame's first byte in memory to its last bit at the host",
+      {"first_byte_to_host",
+       "from the frame's first byte in memory to its last bit at the host, or, where the link is off, to its "
+       "results in memory",
        &FrameTimes::first_byte, &FrameTimes::at_host},
       {"exposure_to_first_pixel",
        "from the end of exposure to the frame's first disparity out of the last filter", &FrameTimes::exposed,
@@ -29,7 +31,9 @@ const std::vector<FrameSpan>& frame_spans() {
       {"exposure_to_last_pixel",
        "from the end of exposure to the frame's last disparity out of the last filter", &FrameTimes::exposed,
        &FrameTimes::last_disparity},
-      {"exposure_to_host", "from the end of exposure to the frame's last bit at the host",
+      {"exposure_to_host",
+       "from the end of exposure to the frame's last bit at the host, or, where the link is off, to its "
+       "results in memory",
        &FrameTimes::exposed, &FrameTimes::at_host}};
   return spans;
 }

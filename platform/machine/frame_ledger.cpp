@@ -30,7 +30,8 @@ FrameLedger::FrameLedger(const MachineConfig& config, std::int64_t frames, StepL
     : kept_(warm_up_frames(config) + kRecords),
       listener_(std::move(listener)),
       latencies_(steady_first(config, frames)),
-      trend_(steady_first(config, frames), jitter_of(config)) {
+      trend_(steady_first(config, frames), jitter_of(config),
+             config.camera.jitter_ns == 0 ? LatencyTrend::kAlike : LatencyTrend::kByChance) {
   times_.keep(kept_);
   snapshots_.keep(kept_);
 }
@@ -39,10 +40,11 @@ void FrameLedger::tell(std::int64_t frame, FrameStep step) const {
   if (listener_) listener_(frame, step);
 }
 
-void FrameLedger::exposed(bool values) {
+void FrameLedger::exposed(const sc_core::sc_time& due, bool values) {
   values_.push_back(values);
   times_.push_back({});
   times_.back().exposed = sc_core::sc_time_stamp();
+  times_.back().due = due;
   tell(times_.size() - 1, FrameStep::kExposed);
 }
 
@@ -93,7 +95,7 @@ void FrameLedger::follow_trend(std::int64_t frame) {
     begins_anew_.reset();
   }
   const FrameTimes& times = of(frame);
-  if (trend_.add(frame, times.at_host - times.exposed) && static_cast<std::size_t>(frame) + 2 < kept_)
+  if (trend_.add(frame, times.at_host - times.due) && static_cast<std::size_t>(frame) + 2 < kept_)
     begins_anew_ = frame + 1;
 }
 

@@ -27,8 +27,8 @@ class FrameLedger {
   /// Of a run of `frames`. `listener` may be empty.
   FrameLedger(const MachineConfig& config, std::int64_t frames, StepListener listener);
 
-  /// The next frame is exposed, now. `values`: it carries images.
-  void exposed(bool values);
+  /// The next frame is exposed, now, and would be at `due` without jitter. `values`: it carries images.
+  void exposed(const sc_core::sc_time& due, bool values);
   /// The first byte of one of its images is in memory, now; of two calls the first counts.
   void first_byte(std::int64_t frame);
   /// As much of it is in memory, now, as the core waits for.
@@ -52,7 +52,7 @@ class FrameLedger {
   const KeptRecords<MachineSnapshot>& snapshots() const { return snapshots_; }
   /// Of all frames at the host.
   const FrameLatencies& latencies() const { return latencies_; }
-  /// Likewise, from exposure to the host.
+  /// Likewise, from exposure to the host, of exposures without their jitter: the queue's part of it.
   const LatencyTrend& trend() const { return trend_; }
   /// The number of records that are kept of the beginning of a run, and of its end.
   std::size_t kept() const { return kept_; }

@@ -18,8 +18,8 @@ double slope_of(const std::vector<sc_core::sc_time>& latencies) {
 bool LatencyTrend::add(std::size_t frame, const sc_core::sc_time& latency) {
   if (frame < first_) return false;
   block_.push_back(latency);
-  known_ = known_ || block_.size() >= 3;
-  if (block_.size() < kBlock) return false;
+  known_ = known_ || block_.size() >= looks_.least;
+  if (block_.size() < looks_.block) return false;
   rising_ = has_trend();
   last_slope_ = rising_ ? slope_of(block_) : 0;
   block_.clear();
@@ -36,7 +36,7 @@ bool LatencyTrend::has_trend() const {
 
 double LatencyTrend::slope() const {
   if (settled()) return 0;
-  return block_.size() < 3 ? last_slope_ : slope_of(block_);
+  return block_.size() < looks_.least ? last_slope_ : slope_of(block_);
 }
 
 }  // namespace parallax

@@ -73,7 +73,9 @@ Machine::Machine(const sc_core::sc_module_name& name, const MachineConfig& confi
 
 Acquisition::Hooks Machine::acquisition_hooks() {
   Acquisition::Hooks hooks;
-  hooks.exposed = [this](std::int64_t, bool values) { ledger_.exposed(values); };
+  hooks.exposed = [this](std::int64_t, const sc_core::sc_time& due, bool values) {
+    ledger_.exposed(due, values);
+  };
   hooks.begun = [this](std::int64_t frame) { ledger_.first_byte(frame); };
   hooks.startable = [this](std::int64_t frame) {
     ledger_.startable(frame);

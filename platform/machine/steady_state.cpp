@@ -15,6 +15,18 @@ constexpr std::int64_t kMeasuredFrames = 3;
 // Where no frame is like the one before.
 constexpr std::int64_t kManyFrames = 100;
 
+// By which share of a window its ends may move and no rate is another when it is printed.
+constexpr double kUnseen = 5e-5;
+
+// Whether jitter moves the window's ends, and all that the cameras send comes through, at their pace.
+bool paced_with_jitter(const Machine& machine, const SteadyWindow& window) {
+  if (machine.config().camera.jitter_ns * 1e-9 <= kUnseen * window.seconds || !machine.trend().settled())
+    return false;
+  const CameraCounts& first = machine.snapshots()[window.first].cameras;
+  const CameraCounts& last = machine.snapshots()[window.last].cameras;
+  return last.dropped == first.dropped && last.missed == first.missed;
+}
+
 }  // namespace
 
 std::int64_t warm_up_frames(const MachineConfig& config) {
@@ -51,8 +63,9 @@ SteadyWindow steady_window(const Machine& machine) {
     return window;
   }
   window.first = machine.latencies().steady_first();
-  window.period =
-      (snapshots[window.last].time - snapshots[window.first].time).to_seconds() / window.divisor();
+  window.seconds = (snapshots[window.last].time - snapshots[window.first].time).to_seconds();
+  if (paced_with_jitter(machine, window))
+    window.seconds = (machine.times()[window.last].due - machine.times()[window.first].due).to_seconds();
   window.text = fmt::format("frames {} to {}", window.first + 2, window.last + 1);
   return window;
 }

@@ -36,16 +36,22 @@ RunLength run_length(const MachineConfig& config, std::int64_t input_frames,
 struct SteadyWindow {
   std::size_t first = 0;  ///< index of the frame whose arrival begins it
   std::size_t last = 0;   ///< index of the frame whose arrival ends it
-  double period = 0;      ///< s a frame; 0 when there is one frame only
+  double seconds = 0;     ///< that its frames take; 0 when there is one frame only
   std::string text;       ///< for reports
 
   std::size_t frames() const { return last - first; }
+  /// s a frame.
+  double period() const { return seconds / divisor(); }
   /// The number of frames to divide what is counted in the window by: a run's only frame has no window.
   double divisor() const { return frames() == 0 ? 1.0 : static_cast<double>(frames()); }
 };
 
 /// All frames of a run after the warm-up, and after those whose latency had a trend (LatencyTrend); where the
 /// run is shorter than the warm-up, its last two. The host must have a frame.
+///
+/// Its frames take the time between the arrivals that begin and end it. Cameras whose triggers jitter move
+/// both: where every frame of theirs comes through and none waits longer than the one before, the frames take
+/// what their exposures would without the jitter.
 SteadyWindow steady_window(const Machine& machine);
 
 }  // namespace parallax

@@ -47,7 +47,7 @@ Deadlock find_deadlock(const Machine& machine) {
 
 std::string message(const Deadlock& deadlock) {
   if (deadlock.circle.empty()) {
-    return "the machine stopped before the host had all frames; these wait:\n" + describe(deadlock.waits) +
+    return "the machine stopped before all frames were done; these wait:\n" + describe(deadlock.waits) +
            "  no circle of streams holds it up, so no depth would free it\n";
   }
   return "the machine is deadlocked; nobody in this circle can go on:\n" + describe(deadlock.circle) +

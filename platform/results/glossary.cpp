@@ -35,7 +35,7 @@ const std::vector<Section>& sections() {
        "and what follows from them. The steady state is measured after all frame buffers have been full "
        "once, "
        "between two arrivals at the host, while the cameras go on; a number's window in the file says which "
-       "frames these were.",
+       "frames these were. Where the link is off, frames are at the host when their results are in memory.",
        {&run_table(), &rate_table(), &memory_table(), &energy_table(), &pipeline_table(), &deadlock_table()}},
       {"Numbers of parallax memory",
        "What an address trace, replayed against the DRAM alone, comes to.",

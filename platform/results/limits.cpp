@@ -125,7 +125,7 @@ class WindowLoads {
   PartLoad camera_rate() const {
     const double rate = config_.camera.frame_rate;
     const std::int64_t through = window_.frames() + last_.cameras.faulty - first_.cameras.faulty;
-    return {nullptr, std::min(1.0, quotient(through, seconds_ * rate)), 1.0 / rate};
+    return {nullptr, std::min(1.0, quotient(through, window_.seconds * rate)), 1.0 / rate};
   }
 
   PartLoad engine(const MemoryPort& port) const {

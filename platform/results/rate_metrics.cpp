@@ -15,7 +15,7 @@ namespace {
 
 void add_performance(const MetricWriter& out, const Machine& machine, const SteadyWindow& window) {
   const double pixels = static_cast<double>(machine.input().width) * machine.input().height;
-  const double fps = window.period > 0 ? 1.0 / window.period : 0;
+  const double fps = window.seconds > 0 ? 1.0 / window.period() : 0;
   out.add("performance/frame_rate", fps);
   out.add("performance/disparities_per_second", fps * pixels);
   out.add("performance/evaluations_per_second", fps * pixels * machine.config().matching.range().count);
@@ -74,11 +74,17 @@ double latency_when_full(const Machine& machine, const SteadyWindow& window, con
   const double exposure = nanoseconds(config.camera.exposure_ns).to_seconds();
   const PartKind kind = limit.busiest.part->kind;
   if (kind != PartKind::kLink && kind != PartKind::kHost) {
-    return config.camera.frame_buffers * window.period + (last.at_host - last.read).to_seconds() - exposure;
+    return config.camera.frame_buffers * window.period() + (last.at_host - last.read).to_seconds() - exposure;
   }
   const double buffers = config.camera.frame_buffers + config.link.output_buffers;
-  return buffers * window.period - (last.read - last.core_started).to_seconds() -
+  return buffers * window.period() - (last.read - last.core_started).to_seconds() -
          nanoseconds(config.software.response_ns).to_seconds() - exposure;
+}
+
+// Good frames a second of cameras with a rate of their own; 0 of others.
+double sent_rate(const CameraConfig& camera) {
+  const double faulty = camera.fault == CameraFault::kNone ? 0 : 1.0 / camera.fault_every;
+  return camera.frame_rate * (1 - faulty);
 }
 
 void add_steady(const MetricWriter& out, const Machine& machine, const SteadyWindow& window) {
@@ -93,6 +99,8 @@ void add_steady(const MetricWriter& out, const Machine& machine, const SteadyWin
   const double more = std::max(0.0, full - (last.at_host - last.exposed).to_seconds());
   out.add("steady/latency_when_full", full * 1e3);
   out.add("steady/frames_until_full", static_cast<std::int64_t>(std::ceil(more / trend.slope())));
+  if (const double drops = sent_rate(machine.config().camera) - 1 / window.period(); drops > 0)
+    out.add("steady/drops_when_full", drops);
 }
 
 }  // namespace
@@ -122,8 +130,16 @@ const MetricTable& rate_table() {
        kSteadyState},
       {"steady/frames_until_full", "frames", "With a rising trend: about as many frames later.",
        kSteadyState},
+      {"steady/drops_when_full", "frames/s",
+       "With a rising trend, of cameras with a camera.frame_rate: what they send and nothing will take when "
+       "no "
+       "buffer is free any more.",
+       kSteadyState},
       {"performance/frame_rate", "frames/s",
-       "Rate at which the host receives frames; 0 when there is one frame only.", kSteadyState},
+       "Rate at which the host receives frames, or, where the link is off, at which their results are in "
+       "memory; 0 when there is one frame only. Where triggers jitter and all that the cameras send comes "
+       "through, it is that of exposures without the jitter.",
+       kSteadyState},
       {"performance/disparities_per_second", "1/s", "Frame rate times processed pixels, valid or not.",
        kSteadyState},
       {"performance/evaluations_per_second", "1/s",

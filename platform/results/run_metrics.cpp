@@ -87,7 +87,7 @@ const MetricTable& run_table() {
        "however "
        "they were given.",
        ""},
-      {"run/status", "", "done, or stuck: the machine came to a halt before the host had all frames.", ""},
+      {"run/status", "", "done, or stuck: the machine came to a halt before all frames were done.", ""},
       {"run/version", "", "Version of the model.", ""},
       {"run/revision", "", "Git revision that the model was built from.", ""},
       {"run/command", "", "Command line that makes the run again, from the same folder.", ""},

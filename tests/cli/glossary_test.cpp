@@ -91,6 +91,10 @@ TEST_F(Glossary, NamesEveryNumberAndNoOther) {
       "--set camera.fault_every=3 --json");
   check("run --timing-only --rectified --size 96x64 --preset core-alone --json");
   check(
+      "run --timing-only --no-verdict --size 64x48 --set link.host_pixel_rate=1e6 --set "
+      "camera.frame_rate=326 "
+      "--json");
+  check(
       "run --timing-only --no-verdict --size 320x240 --set link.host_pixel_rate=0 --set link.line_rate=10e9 "
       "--set clocks.camera_hz=39e6 --json");
   program_.folder().write("trace.csv", "time_ns,rw,addr,bytes\n0,R,0x0,64\n0,W,0x8000,64\n");

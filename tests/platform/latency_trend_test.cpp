@@ -71,5 +71,20 @@ TEST(LatencyTrend, PhasesAndJitterAreNone) {
     EXPECT_FALSE(jitter.add(frame, us(5000.0 + static_cast<double>(random() % 1000)))) << frame;
 }
 
+TEST(LatencyTrend, WhereChanceMovesEachLatencyAFewFramesSayNothing) {
+  LatencyTrend chance(0, us(0.1), LatencyTrend::kByChance);
+  for (const double latency : {5000.0, 5200.0, 5900.0}) chance.add(0, us(latency));
+  EXPECT_FALSE(chance.known());
+  std::mt19937 random(2);
+  for (std::size_t frame = 0; frame < 4000; ++frame) {
+    EXPECT_FALSE(chance.add(frame, us(5000.0 + static_cast<double>(random() % 1000)))) << frame;
+    EXPECT_EQ(chance.settled(), chance.known());
+  }
+  for (std::size_t frame = 0; frame < 24; ++frame)
+    chance.add(frame, us(6000.0 + 67.0 * static_cast<double>(frame)));
+  EXPECT_FALSE(chance.settled());
+  EXPECT_NEAR(chance.slope(), 67e-6, 1e-9);
+}
+
 }  // namespace latency_trend_test
 }  // namespace parallax::test
