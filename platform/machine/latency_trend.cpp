@@ -4,9 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numeric>
 
 namespace parallax {
 namespace {
+
+constexpr std::size_t kMostMeans = 64;
+constexpr double kDeviations = 2.5;  // of the difference of two halves, that noise explains
 
 double slope_of(const std::vector<sc_core::sc_time>& latencies) {
   return (latencies.back().to_seconds() - latencies.front().to_seconds()) /
@@ -22,6 +26,7 @@ bool LatencyTrend::add(std::size_t frame, const sc_core::sc_time& latency) {
   if (block_.size() < looks_.block) return false;
   rising_ = has_trend();
   last_slope_ = rising_ ? slope_of(block_) : 0;
+  keep_mean();
   block_.clear();
   return rising_;
 }
@@ -34,8 +39,47 @@ bool LatencyTrend::has_trend() const {
   return std::abs(block_.back().to_seconds() - block_.front().to_seconds()) > least;
 }
 
+void LatencyTrend::keep_mean() {
+  if (rising_) {
+    means_.clear();
+    blocks_a_mean_ = 1;
+    sum_ = 0;
+    summed_ = 0;
+    return;
+  }
+  for (const sc_core::sc_time& latency : block_)
+    sum_ += latency.to_seconds() / static_cast<double>(looks_.block);
+  if (++summed_ < blocks_a_mean_) return;
+  means_.push_back(sum_ / static_cast<double>(summed_));
+  sum_ = 0;
+  summed_ = 0;
+  if (means_.size() < kMostMeans) return;
+  for (std::size_t i = 0; i < kMostMeans / 2; ++i) means_[i] = (means_[2 * i] + means_[2 * i + 1]) / 2;
+  means_.resize(kMostMeans / 2);
+  blocks_a_mean_ *= 2;
+}
+
+double LatencyTrend::drift() const {
+  const std::size_t half = means_.size() / 2;
+  if (half < 2) return 0;
+  const auto middle = means_.end() - static_cast<std::ptrdiff_t>(half);
+  const double number = static_cast<double>(half);
+  const double before =
+      std::accumulate(means_.begin(), means_.begin() + static_cast<std::ptrdiff_t>(half), 0.0) / number;
+  const double after = std::accumulate(middle, means_.end(), 0.0) / number;
+  // A mean's variance from neighbours, which a slow change leaves alone.
+  double squares = 0;
+  for (std::size_t i = 1; i < means_.size(); ++i)
+    squares += (means_[i] - means_[i - 1]) * (means_[i] - means_[i - 1]);
+  const double variance = squares / 2 / static_cast<double>(means_.size() - 1);
+  const double noise = kDeviations * std::sqrt(2 * variance / number);
+  if (std::abs(after - before) <= std::max({kHalvesShare * after, noise, tolerance_.to_seconds()})) return 0;
+  const double frames = static_cast<double>((means_.size() - half) * blocks_a_mean_ * looks_.block);
+  return (after - before) / frames;
+}
+
 double LatencyTrend::slope() const {
-  if (settled()) return 0;
+  if (last_settled()) return drift();
   return block_.size() < looks_.least ? last_slope_ : slope_of(block_);
 }
 

@@ -14,8 +14,8 @@ namespace {
 constexpr std::int64_t kBarColumns = 24;
 constexpr std::chrono::milliseconds kRedraw{100};
 // An estimate is told when it is some good, and when it is worth knowing.
-constexpr std::chrono::seconds kEstimate{5};
-constexpr std::chrono::seconds kEstimateWithoutAny{20};
+constexpr std::chrono::seconds kEstimate{2};
+constexpr std::chrono::seconds kEstimateWithoutAny{5};
 constexpr std::chrono::duration<double> kWorthANote{180};
 constexpr const char* kWipe = "\r\033[K";  // to the first column, erase to the end of the line
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -12,6 +13,9 @@
 
 namespace parallax {
 namespace {
+
+constexpr double kClosePace = 1e-3;      // of the frame period
+constexpr double kHardlyKeepsUp = 0.98;  // likewise
 
 void add_performance(const MetricWriter& out, const Machine& machine, const SteadyWindow& window) {
   const double pixels = static_cast<double>(machine.input().width) * machine.input().height;
@@ -87,11 +91,56 @@ double sent_rate(const CameraConfig& camera) {
   return camera.frame_rate * (1 - faulty);
 }
 
+// Cameras, core, and what sends: a queue of frames lies between each of these.
+int side_of(PartKind kind) {
+  if (kind == PartKind::kCamera || kind == PartKind::kCameraRate) return 0;
+  if (kind == PartKind::kSoftware || kind == PartKind::kCore) return 1;
+  return kind == PartKind::kLink || kind == PartKind::kHost ? 2 : -1;
+}
+
+// Whether two sides of a queue have so nearly the same pace that a few frames do not show how it fills. With
+// a frame rate any part may be what hardly keeps up.
+bool paces_are_close(const std::vector<PartLoad>& loads, const LatencyTrend& trend) {
+  const auto given = std::find_if(loads.begin(), loads.end(), [](const PartLoad& load) {
+    return load.part->kind == PartKind::kCameraRate;
+  });
+  if (given != loads.end()) {
+    return std::any_of(loads.begin(), loads.end(), [&](const PartLoad& load) {
+      return load.part->kind != PartKind::kCameraRate && load.busy >= kHardlyKeepsUp * given->busy;
+    });
+  }
+  std::array<double, 3> busy{};
+  for (const PartLoad& load : loads) {
+    const int side = side_of(load.part->kind);
+    if (side >= 0) busy[side] = std::max(busy[side], load.busy);
+  }
+  std::sort(busy.begin(), busy.end());
+  return busy[2] - busy[1] <= 4 * trend.tolerance().to_seconds() + kClosePace * busy[2];
+}
+
+// Whether frames are lost by chance, so many that the rate of another such run may differ by a percent.
+bool rate_is_by_chance(const Machine& machine, const SteadyWindow& window) {
+  if (machine.config().camera.jitter_ns == 0) return false;
+  const CameraCounts& first = machine.snapshots()[window.first].cameras;
+  const CameraCounts& last = machine.snapshots()[window.last].cameras;
+  const auto lost = static_cast<double>(last.dropped + last.missed - first.dropped - first.missed);
+  return 2 * std::sqrt(lost) > 0.01 * static_cast<double>(window.frames());
+}
+
+std::string established(const Machine& machine, const SteadyWindow& window) {
+  const LatencyTrend& trend = machine.trend();
+  if (!trend.known()) return "unknown";
+  if (!trend.settled()) return "no";
+  const bool few = window.frames() < 2 * LatencyTrend::kBlock;
+  if (few && paces_are_close(part_loads(machine, window), trend)) return "unknown";
+  return rate_is_by_chance(machine, window) ? "unknown" : "yes";
+}
+
 void add_steady(const MetricWriter& out, const Machine& machine, const SteadyWindow& window) {
   if (window.frames() == 0) return;
   const LatencyTrend& trend = machine.trend();
   out.add("steady/frames", static_cast<std::int64_t>(window.frames() + 1));
-  out.add("steady/established", std::string(!trend.known() ? "unknown" : trend.settled() ? "yes" : "no"));
+  out.add("steady/established", established(machine, window));
   out.add("steady/latency_trend", trend.slope() * 1e3);
   if (trend.slope() <= 0) return;
   const double full = latency_when_full(machine, window, find_limit(part_loads(machine, window)));
@@ -119,7 +168,10 @@ const MetricTable& rate_table() {
        "(or shorter) than the one before, as a queue between parts of nearly the same pace fills (or "
        "empties): the "
        "rate is right, latencies are those of these frames. unknown: fewer than three frames after the "
-       "warm-up.",
+       "warm-up (twelve where triggers jitter); or so few that parts of nearly the same pace, between which "
+       "a queue may fill for hundreds "
+       "of frames, do not show it; or frames are lost by chance, as triggers jitter, and the rate of another "
+       "such run may differ by a percent.",
        kSteadyState},
       {"steady/latency_trend", "ms", "By how much the latency grows from frame to frame; 0 without a trend.",
        kSteadyState},

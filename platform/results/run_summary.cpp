@@ -136,6 +136,8 @@ std::string quality_lines(const MetricGroup& m) {
 // Where the latency is not steady.
 std::string trend_line(const MetricGroup& m) {
   const double trend = m.number_or("steady/latency_trend", 0);
+  if (trend == 0 && m.number_or("steady/frames", 0) >= 3 && m.word("steady/established") == "unknown")
+    return "                    it may not be steady: a longer run shows (--timing-frames)\n";
   if (trend == 0) return "";
   std::string line =
       fmt::format("                    it is not steady, but {} by {} a frame", trend > 0 ? "grows" : "falls",

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <random>
 #include <vector>
 
@@ -84,6 +85,34 @@ TEST(LatencyTrend, WhereChanceMovesEachLatencyAFewFramesSayNothing) {
     chance.add(frame, us(6000.0 + 67.0 * static_cast<double>(frame)));
   EXPECT_FALSE(chance.settled());
   EXPECT_NEAR(chance.slope(), 67e-6, 1e-9);
+}
+
+// Each block goes up and down, but they lie higher and higher.
+TEST(LatencyTrend, ADriftBelowTheNoiseOfABlockShowsInHalves) {
+  LatencyTrend trend(0, us(0.1));
+  for (std::size_t frame = 0; frame < 96; ++frame)
+    EXPECT_FALSE(trend.add(frame, us(5000.0 + (frame % 2 == 0 ? 30 : 0) + 0.5 * static_cast<double>(frame))));
+  EXPECT_FALSE(trend.settled());
+  EXPECT_NEAR(trend.slope(), 0.5e-6, 1e-8);
+}
+
+// However many frames there are: their means are kept in ever longer blocks.
+TEST(LatencyTrend, ALongRunShowsItToo) {
+  LatencyTrend trend(0, us(0.1));
+  for (std::size_t frame = 0; frame < 10'000; ++frame)
+    trend.add(frame, us(5000.0 + (frame % 2 == 0 ? 30 : 0) + 0.01 * static_cast<double>(frame)));
+  EXPECT_FALSE(trend.settled());
+  EXPECT_NEAR(trend.slope(), 0.01e-6, 1e-9);
+}
+
+TEST(LatencyTrend, NoiseIsNoDrift) {
+  for (std::uint32_t seed = 1; seed <= 40; ++seed) {
+    std::mt19937 random(seed);
+    LatencyTrend trend(0, us(0.1));
+    for (std::size_t frame = 0; frame < 96; ++frame)
+      trend.add(frame, us(5000.0 + static_cast<double>(random() % 50)));
+    EXPECT_TRUE(trend.settled()) << seed;
+  }
 }
 
 }  // namespace latency_trend_test
