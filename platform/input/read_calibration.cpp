@@ -115,6 +115,16 @@ void check_cameras(const CalibrationRequest& request, const std::vector<int>& ca
   }
 }
 
+// What is wrong with a pair need not be wrong with another one.
+Calibration completed(const StatedCalibration& stated, const std::string& choice) {
+  try {
+    return complete(stated);
+  } catch (const UserError& error) {
+    if (choice.empty() || stated.size.width == 0) throw;
+    throw UserError(fmt::format("{}; {}", error.what(), choice));
+  }
+}
+
 CalibrationRequest read_files(const std::vector<std::string>& paths) {
   CalibrationRequest request;
   const auto add = [&request](const std::string& path) {
@@ -153,11 +163,13 @@ Calibration read_calibration(const std::vector<std::string>& paths, const ImageS
   }
   const std::vector<int> held = cameras_in(format, request.files.front().text);
   check_cameras(request, held, cameras.has_value());
-  Calibration calibration = complete(format.read(request));
+  std::string choice;
   if (!cameras && held.size() > 2) {
-    calibration.choice =
+    choice =
         fmt::format("of its cameras {}, 0 and 1 are taken; {} takes others", listed(held), other_pair(held));
   }
+  Calibration calibration = completed(format.read(request), choice);
+  calibration.choice = choice;
   return calibration;
 }
 

@@ -54,6 +54,11 @@ FileIndex::FileIndex(fs::path folder, const std::set<std::string>& names) : fold
     throw UserError(fmt::format("{} is not a file, but results are listed there; choose another folder",
                                 (folder_ / kName).string()));
   }
+  constexpr std::uintmax_t kLargestIndex = std::uintmax_t{1} << 28;
+  if (const std::uintmax_t bytes = fs::file_size(folder_ / kName, ignored); bytes > kLargestIndex) {
+    throw UserError(fmt::format("{} has {} bytes, which no list of results has; choose another folder",
+                                (folder_ / kName).string(), bytes));
+  }
   std::ifstream file(folder_ / kName);
   for (std::string line; std::getline(file, line);) {
     unsigned long long bytes = 0;

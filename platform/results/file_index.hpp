@@ -21,7 +21,7 @@ class FileIndex {
   static constexpr const char* kName = ".parallax_files";
 
   /// Reads the lines about `names`, paths within the folder. What is no line of an index counts for nothing.
-  /// Throws UserError when something other than a file has its name.
+  /// Throws UserError when something other than a file has its name, or one that is too large.
   FileIndex(std::filesystem::path folder, const std::set<std::string>& names);
 
   /// Whether the file of this name, which exists, is as this program wrote it.

@@ -9,6 +9,7 @@
 #include <opencv2/core.hpp>
 
 #include "platform/images/image_file.hpp"
+#include "platform/images/image_header.hpp"
 #include "platform/images/npy_file.hpp"
 #include "platform/images/pfm_file.hpp"
 #include "platform/images/zip_archive.hpp"
@@ -81,6 +82,11 @@ bool is_jpeg(const std::vector<std::uint8_t>& head) { return head[0] == 0xFF && 
 }
 
 TruthValues read_truth_image(const std::string& path, TruthEncoding encoding, const SizeCheck& check) {
+  if (!image_size_of_header(path)) {
+    throw UserError(fmt::format(
+        "cannot read {} {}: it is damaged, or not a PNG, JPEG, TIFF, BMP, PNM, WebP, PFM, NPY or NPZ file",
+        kTruthFile, path));
+  }
   const cv::Mat image = read_image_file(path, kTruthFile, check);
   if (encoding == TruthEncoding::kSintel) return {decode_sintel(image, path), 1, true};
   const int depth = image.depth();

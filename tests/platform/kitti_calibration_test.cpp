@@ -112,7 +112,7 @@ TEST_F(KittiCalibration, DamageIsNamed) {
             "P1 holds a value that is not a finite number");
   EXPECT_EQ(line(replaced(text, "P1: 7.070493e+02", "P1: -7.070493e+02")),
             "P0, P1: focal lengths -707.0493 and 707.0493 px; those of a rectified image are from 1 to "
-            "10000000 px");
+            "10000000 px; of its cameras 0, 1, 2 and 3, 0 and 1 are taken; --cameras 2,3 takes others");
   EXPECT_EQ(line(replaced(rectified_text().substr(0, text.find("P2")), "P1", "P0")),
             "P0 occurs twice, with other numbers");
   EXPECT_EQ(line(text, {}), "states no image size; give it with --size");

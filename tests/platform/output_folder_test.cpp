@@ -184,6 +184,10 @@ TEST(OutputFolder, ADamagedIndexNamesNothing) {
   }
   EXPECT_EQ(temporary.read("disparity.png"), "old");
   EXPECT_EQ(temporary.read("mine/note.txt"), "old");
+  fs::resize_file(temporary / ".parallax_files", std::uintmax_t{1} << 30);
+  EXPECT_EQ(error_of([&] { OutputFolder again(temporary.path()); }),
+            temporary / ".parallax_files" +
+                " has 1073741824 bytes, which no list of results has; choose another folder");
   fs::remove(temporary / ".parallax_files");
   fs::create_directory(temporary / ".parallax_files");
   EXPECT_EQ(

@@ -334,9 +334,10 @@ TEST_F(TruthFile, FilesThatAreNone) {
   EXPECT_EQ(complaint("folder.png"), "folder.png is a folder, expected a ground truth");
   for (const char* text : {"no image", "", "P", "Pf"}) {
     write("text.png", text);
-    EXPECT_EQ(
-        complaint("text.png"),
-        "cannot read ground truth text.png: it is damaged, or not a PNG, JPEG, TIFF, BMP, PNM or WebP file");
+    EXPECT_EQ(complaint("text.png"),
+              "cannot read ground truth text.png: it is damaged, or not a PNG, JPEG, TIFF, BMP, PNM, WebP, "
+              "PFM, NPY or "
+              "NPZ file");
   }
   image("whole.png", cv::Mat(3, 4, CV_16UC1, cv::Scalar(256)));
   std::string png = folder_.read("whole.png");
