@@ -24,7 +24,7 @@ struct CloseFile {
 
 }  // namespace
 
-std::vector<std::uint8_t> read_file(const std::string& path) {
+std::vector<std::uint8_t> read_file(const std::string& path, std::size_t most) {
   require_plain_file(path);
   const std::unique_ptr<std::FILE, CloseFile> file(std::fopen(path.c_str(), "rb"));
   if (!file) fail(path, errno);
@@ -32,10 +32,8 @@ std::vector<std::uint8_t> read_file(const std::string& path) {
   std::vector<std::uint8_t> chunk(std::size_t{1} << 16);
   while (const std::size_t count = std::fread(chunk.data(), 1, chunk.size(), file.get())) {
     bytes.insert(bytes.end(), chunk.begin(), chunk.begin() + count);
-    if (bytes.size() > kMostFileBytes) {
-      throw UserError(
-          fmt::format("{}: has more than {} MiB, the most that is read", path, kMostFileBytes >> 20));
-    }
+    if (bytes.size() > most)
+      throw UserError(fmt::format("{}: has more than {} MiB, the most that is read", path, most >> 20));
   }
   if (std::ferror(file.get()) != 0) fail(path, errno);
   return bytes;

@@ -17,7 +17,7 @@ inline constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 constexpr std::size_t kMostFileBytes = std::size_t{512} << 20;
 
 /// All bytes of a file. Throws UserError when it is none (plain_file.hpp), cannot be read, or has more than
-/// kMostFileBytes.
-std::vector<std::uint8_t> read_file(const std::string& path);
+/// `most`.
+std::vector<std::uint8_t> read_file(const std::string& path, std::size_t most = kMostFileBytes);
 
 }  // namespace parallax

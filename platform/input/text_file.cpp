@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <zlib.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -47,7 +48,9 @@ std::string gunzip(std::vector<std::uint8_t>& bytes, const std::string& path, st
 }  // namespace
 
 std::string read_text_file(const std::string& path, std::size_t largest) {
-  std::vector<std::uint8_t> bytes = read_file(path);
+  // Packed, a text that is short is longer by its head.
+  constexpr std::size_t kHead = 1 << 16;
+  std::vector<std::uint8_t> bytes = read_file(path, std::min(kMostFileBytes, largest + kHead));
   const bool packed = bytes.size() >= 2 && bytes[0] == 0x1f && bytes[1] == 0x8b;
   std::string text = packed ? gunzip(bytes, path, largest) : std::string(bytes.begin(), bytes.end());
   if (text.size() > largest) throw UserError(fmt::format("{}: a text of more than {} bytes", path, largest));

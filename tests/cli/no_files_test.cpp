@@ -118,6 +118,10 @@ TEST_F(NoFiles, AListOfPairsIsText) {
   EXPECT_EQ(error("run --input list.txt"), "list.txt:1: " + name.substr(0, 200) + "... does not exist");
   program_.folder().write("many.txt", std::string((64 << 20) + 1, ' '));
   EXPECT_EQ(error("run --input many.txt"), "many.txt: a text of more than 67108864 bytes");
+  fs::resize_file(program_ / "many.txt", std::uintmax_t{1} << 30);
+  EXPECT_EQ(error("run --input many.txt"), "many.txt: has more than 64 MiB, the most that is read");
+  EXPECT_EQ(error("map encode -o m --calibration many.txt"),
+            "many.txt: has more than 16 MiB, the most that is read");
 }
 
 TEST_F(NoFiles, ATraceMayComeThroughAPipeIntoWhichSomebodyWrites) {
