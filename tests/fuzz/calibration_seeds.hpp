@@ -34,13 +34,20 @@ inline std::vector<std::string> calibration_seeds() {
   SceneConfig config;
   config.width = 64;
   config.height = 48;
-  return {to_yaml(Scene(config).calibration()),
-          kalibr_camera("cam0") + kalibr_camera("cam1") +
-              "  T_cn_cnm1:\n  - [1, 0, 0, -0.1]\n  - [0, 1, 0, 0]\n  - [0, 0, 1, 0]\n  - [0, 0, 0, 1]\n",
-          kitti_row("P0", "0") + kitti_row("P1", "-2.5e+01"),
-          kitti_raw_camera("00", "0") + kitti_raw_camera("01", "-2.5e+01"),
-          "cam0=[100 0 31.5; 0 100 25.25; 0 0 1]\ncam1=[100 0 34.75; 0 100 25.25; 0 0 1]\ndoffs=3.25\n"
-          "baseline=200\nwidth=64\nheight=48\nndisp=70\n"};
+  return {
+      to_yaml(Scene(config).calibration()),
+      kalibr_camera("cam0") + kalibr_camera("cam1") +
+          "  T_cn_cnm1:\n  - [1, 0, 0, -0.1]\n  - [0, 1, 0, 0]\n  - [0, 0, 1, 0]\n  - [0, 0, 0, 1]\n",
+      kitti_row("P0", "0") + kitti_row("P1", "-2.5e+01"),
+      kitti_raw_camera("00", "0") + kitti_raw_camera("01", "-2.5e+01"),
+      "cam0=[100 0 31.5; 0 100 25.25; 0 0 1]\ncam1=[100 0 34.75; 0 100 25.25; 0 0 1]\ndoffs=3.25\n"
+      "baseline=200\nwidth=64\nheight=48\nndisp=70\n",
+      "S_00: 64 48\nK_00: 50 0 32 0 50 24 0 0 1\nD_00: -0.1 0 0 0 0\nR_00: 1 0 0 0 1 0 0 0 1\nT_00: 0 0 0\n"
+      "S_01: 64 48\nK_01: 50 0 32 0 50 24 0 0 1\nD_01: -0.1 0 0 0 0\nR_01: 1 0 0 0 1 0 0 0 1\nT_01: -0.5 0 "
+      "0\n",
+      "%YAML:1.0\nCamera.type: \"Rectified\"\nCamera1.fx: 50\nCamera1.fy: 50\nCamera1.cx: 32\nCamera1.cy: "
+      "24\n"
+      "Camera.width: 64\nCamera.height: 48\nStereo.b: 0.125\n"};
 }
 
 inline std::string ros_camera(const std::string& x) {

@@ -44,6 +44,27 @@ constexpr const char* kMiddlebury =
     "cam0=[50 0 32; 0 50 24; 0 0 1]\ncam1=[50 0 33; 0 50 24; 0 0 "
     "1]\ndoffs=1\nbaseline=100\nwidth=64\nheight=48\n";
 
+constexpr const char* kKittiUnrectified =
+    "S_00: 64 48\nK_00: 50 0 32 0 50 24 0 0 1\nD_00: -0.1 0 0 0 0\nR_00: 1 0 0 0 1 0 0 0 1\nT_00: 0 0 0\n"
+    "S_01: 64 48\nK_01: 50 0 32 0 50 24 0 0 1\nD_01: -0.1 0 0 0 0\nR_01: 1 0 0 0 1 0 0 0 1\nT_01: -0.5 0 0\n";
+constexpr const char* kOrbSlam =
+    "%YAML:1.0\nCamera.type: \"PinHole\"\nCamera1.fx: 50.5\nCamera1.fy: 50.25\nCamera1.cx: 32\nCamera1.cy: "
+    "24\nCamera1.k1: -0.1\nCamera1.k2: 0.01\nCamera1.p1: 0\nCamera1.p2: 0\nCamera2.fx: 50\nCamera2.fy: 50\n"
+    "Camera2.cx: 32\nCamera2.cy: 24\nCamera2.k1: -0.1\nCamera2.k2: 0.01\nCamera2.p1: 0\nCamera2.p2: 0\n"
+    "Camera.width: 64\nCamera.height: 48\nStereo.T_c1_c2: !!opencv-matrix\n  rows: 4\n  cols: 4\n  dt: f\n"
+    "  data: [1.0, 0, 0, 0.11,\n     0, 1.0, 0, 0,\n     0, 0, 1.0, 0,\n     0, 0, 0, 1.0]\n";
+constexpr const char* kVinsRig =
+    "%YAML:1.0\ncam0_calib: \"camera.yaml\"\ncam1_calib: \"camera.yaml\"\nbody_T_cam0: !!opencv-matrix\n"
+    "   rows: 4\n   cols: 4\n   dt: d\n   data: [1, 0, 0, 0,\n     0, 1, 0, 0,\n     0, 0, 1, 0,\n     0, 0, "
+    "0, 1]\n"
+    "body_T_cam1: !!opencv-matrix\n   rows: 4\n   cols: 4\n   dt: d\n   data: [1, 0, 0, 0.12,\n     0, 1, 0, "
+    "0,\n"
+    "     0, 0, 1, 0,\n     0, 0, 0, 1]\n";
+constexpr const char* kVinsCamera =
+    "%YAML:1.0\n---\nmodel_type: KANNALA_BRANDT\nimage_width: 64\nimage_height: 48\nprojection_parameters:\n"
+    "   k2: -0.01\n   k3: 0.02\n   k4: -0.03\n   k5: 0.004\n   mu: 50.5\n   mv: 50.25\n   u0: 32\n   v0: "
+    "24\n";
+
 class DamagedCalibration : public test::FolderTest {
  protected:
   // Reads it and says what is wrong with what came out, if anything is.
@@ -101,6 +122,12 @@ TEST_F(DamagedCalibration, OfRos) { damage(ros("0."), ros("-4.5")); }
 TEST_F(DamagedCalibration, OfKalibr) { damage(kalibr()); }
 TEST_F(DamagedCalibration, OfKitti) { damage(kKitti); }
 TEST_F(DamagedCalibration, OfKittiRaw) { damage(kKittiRaw); }
+TEST_F(DamagedCalibration, OfKittiUnrectified) { damage(kKittiUnrectified); }
+TEST_F(DamagedCalibration, OfOrbSlam) { damage(kOrbSlam); }
+TEST_F(DamagedCalibration, OfVins) {
+  write("camera.yaml", kVinsCamera);
+  damage(kVinsRig);
+}
 TEST_F(DamagedCalibration, OfMiddlebury) { damage(kMiddlebury); }
 TEST_F(DamagedCalibration, OfOpenCv) {
   test::SyntheticPair pair;
