@@ -199,7 +199,7 @@ const MetricTable& rate_table() {
        kSteadyState},
       {"latency/<span>_first_frame", "ms", "What the first frame took <span>.", "frame 1"},
       {"latency/<span>_mean", "ms",
-       "What frames took <span>, mean; a span that begins with the frame in memory contains the wait for the "
+       "What frames took <span>, mean; a span that begins when the core can start contains the wait for the "
        "frames before.",
        kSteadyState},
       {"latency/<span>_p50", "ms", "Half of the frames took at most this <span> (up to 1.6 % too large).",

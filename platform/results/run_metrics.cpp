@@ -29,6 +29,12 @@ void add_run(MetricGroup& root, const RunTotals& totals, const std::string& stat
   out.add("run/peak_memory", totals.peak_megabytes);
 }
 
+std::int64_t startable_rows(const Machine& machine) {
+  const std::int64_t early = machine.config().camera.early_start_rows;
+  const std::int64_t all = machine.input().height;
+  return early == 0 ? all : std::min(early, all);
+}
+
 void add_input(MetricGroup& root, const Machine& machine, const RunTotals& totals, int image_width,
                int image_height) {
   const MetricWriter out(root, run_table());
@@ -36,6 +42,7 @@ void add_input(MetricGroup& root, const Machine& machine, const RunTotals& total
   out.add("input/height", std::int64_t{image_height});
   out.add("input/processed_width", std::int64_t{machine.input().width});
   out.add("input/processed_height", std::int64_t{machine.input().height});
+  out.add("input/startable_rows", startable_rows(machine));
   const DisparityRange range = machine.config().matching.range();
   out.add("input/disparity_range", std::int64_t{range.count});
   out.add("input/disparity_offset", std::int64_t{range.offset});
@@ -103,6 +110,10 @@ const MetricTable& run_table() {
        "Width that the machine works on: that of the images rounded up to image.width_granularity.", ""},
       {"input/processed_height", "px",
        "Height that the machine works on: that of the images rounded up to image.height_granularity.", ""},
+      {"input/startable_rows", "rows",
+       "Rows of both images that must be in memory before the core can start with a frame: all, or "
+       "camera.early_start_rows.",
+       ""},
       {"input/disparity_range", "px",
        "Number of disparities searched: matching.parallelism times matching.iterations.", ""},
       {"input/disparity_offset", "px", "Smallest disparity searched.", ""},

@@ -194,13 +194,22 @@ std::string memory_line(const MetricGroup& m) {
   return text + '\n';
 }
 
+// What the core waits for before it starts with a frame.
+std::string start_of_core(const MetricGroup& m) {
+  const bool whole = m.count("input/startable_rows") == m.count("input/processed_height");
+  return whole ? "frame in memory" : filled_in(m, "{input/startable_rows} of it in memory");
+}
+
 }  // namespace
 
 std::string summary(const MetricGroup& m) {
   return image_line(m) + rate_lines(m) +
          filled_in(m,
                    "latency             {latency/first_pixel_first_frame} to the first pixel, "
-                   "{latency/last_pixel_first_frame} to the last, from frame in memory (first frame)\n"
+                   "{latency/last_pixel_first_frame} to the last, from ") +
+         start_of_core(m) +
+         filled_in(m,
+                   " (first frame)\n"
                    "                    {latency/exposure_to_host_mean} from exposure to ") +
          end_of_way(m) + filled_in(m, " (mean), first frame {latency/exposure_to_host_first_frame}\n") +
          trend_line(m) + camera_line(m) + PartLines(m).text() + limit_lines(m) + memory_line(m) +

@@ -65,6 +65,7 @@ const std::vector<PrintedLine>& lines_of_a_run() {
          "evaluations {performance/evaluations_per_second#1/s} a second, "
          "{performance/disparities_per_second#1/s} disparities a second",
          "latency " LATENCIES "frame in memory (first frame)",
+         "latency " LATENCIES "{input/startable_rows} of it in memory (first frame)",
          "{latency/exposure_to_host_mean} from exposure to {=end} (mean), first frame "
          "{latency/exposure_to_host_first_frame}",
          "it is not steady, but grows by {steady/latency_trend} a frame until all buffers are full, to some "
@@ -229,7 +230,7 @@ INSTANTIATE_TEST_SUITE_P(
         Machine{"EarlyStarts",
                 "--timing-only --size 320x240 -d 64 --set camera.early_start_rows=64 --set "
                 "link.early_start_rows=64",
-                "latency"},
+                "64 rows of it in memory"},
         Machine{"SimpleBus",
                 "--timing-only --size 160x128 --set memory.model=bus --set memory.bytes_per_cycle=1",
                 "usable"},
