@@ -16,6 +16,9 @@ namespace {
 
 constexpr double kClosePace = 1e-3;      // of the frame period
 constexpr double kHardlyKeepsUp = 0.98;  // likewise
+// Where triggers jitter, a queue that is hardly kept up with grows and shrinks by chance, over hundreds of
+// frames.
+constexpr std::size_t kManyByChance = 2000;
 
 void add_performance(const MetricWriter& out, const Machine& machine, const SteadyWindow& window) {
   const double pixels = static_cast<double>(machine.input().width) * machine.input().height;
@@ -131,7 +134,9 @@ std::string established(const Machine& machine, const SteadyWindow& window) {
   const LatencyTrend& trend = machine.trend();
   if (!trend.known()) return "unknown";
   if (!trend.settled()) return "no";
-  const bool few = window.frames() < 2 * LatencyTrend::kBlock;
+  const std::size_t enough =
+      machine.config().camera.jitter_ns == 0 ? 2 * LatencyTrend::kBlock : kManyByChance;
+  const bool few = window.frames() < enough;
   if (few && paces_are_close(part_loads(machine, window), trend)) return "unknown";
   return rate_is_by_chance(machine, window) ? "unknown" : "yes";
 }

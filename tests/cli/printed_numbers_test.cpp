@@ -74,6 +74,7 @@ const std::vector<PrintedLine>& lines_of_a_run() {
          "it is not steady, but grows by {steady/latency_trend} a frame until all buffers are full, to some "
          "{steady/latency_when_full} in about {steady/frames_until_full} (--timing-frames)",
          "it is not steady, but grows by {steady/latency_trend} a frame",
+         "it may not be steady: a longer run shows (--timing-frames)",
          "it is not steady, but falls by {=fall} a frame",
          "cameras {camera/dropped_frames} dropped (no buffer free), {camera/faulty_frames} faulty, "
          "{camera/missed_triggers} missed (reading out)",
@@ -226,6 +227,10 @@ INSTANTIATE_TEST_SUITE_P(
                 "--timing-only --size 320x240 --set link.host_pixel_rate=0 --set link.line_rate=10e9 --set "
                 "clocks.camera_hz=39e6",
                 "it is not steady, but grows by"},
+        Machine{"ARateHardlyKeptUpWith",
+                "--timing-only --size 64x48 --set link.host_pixel_rate=1e6 --set camera.frame_rate=324 --set "
+                "camera.jitter_ns=300000",
+                "it may not be steady"},
         Machine{"OneFrame", "--timing-only --size 160x128 --timing-frames 1", "first frame"},
         Machine{"EarlyStarts",
                 "--timing-only --size 320x240 -d 64 --set camera.early_start_rows=64 --set "

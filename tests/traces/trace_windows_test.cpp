@@ -120,7 +120,7 @@ TEST(TraceOptions, ThatCannotBeAreOneLine) {
       {"--trace csv --out out --trace-from 2:9 --trace-to 2:8", "--trace-to is before --trace-from"},
       {"--trace csv --out out --trace-from 2us --trace-to 2us", "--trace-to is before --trace-from"},
       {"--trace csv --out out --trace-from 900s", "--trace-from: 900000000 us is after the run's end, "},
-      {"--trace csv --out out --vary matching.iterations=1,2",
+      {"--trace csv --out out --vary matching.latency=1,2",
        "--trace is of one run: it cannot go with --vary"},
   };
   for (const auto& c : cases) {
