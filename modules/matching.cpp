@@ -25,7 +25,6 @@ constexpr int kCodePiece = 32;     // bits of a code that are packed at once
 constexpr int kMaxCostWeight = 4;  // a weighted cost of 63 bits fits in a byte
 constexpr int kMostParallelRows = 64;
 constexpr int kRowLag = 2;  // columns that a row is behind the one above
-constexpr int kDisparityBits = 12;
 
 int path_count(unsigned paths) {
   int count = 0;
@@ -261,6 +260,7 @@ std::int64_t Matching::storage_bits() const {
   const std::int64_t width = width_;
   const int count = config_.range().count;
   const auto in_row = [this](unsigned paths) { return path_count(config_.paths & paths); };
+  constexpr int kDisparityBits = 12;
   const std::int64_t at_once = config_.parallel_rows;
   std::int64_t pixels = at_once * path_count(config_.paths & (kPathW | kPathE));
   pixels += (at_once - 1) * kRowLag * std::max(in_row(kPathNW | kPathN | kPathNE), in_row(kSouthernPaths));

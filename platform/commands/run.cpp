@@ -38,7 +38,7 @@
 namespace parallax {
 namespace {
 
-using Clock = std::chrono::steady_clock;
+using WallClock = std::chrono::steady_clock;
 
 // Trials may take four times as long as the run itself, and a minute in any case.
 constexpr std::chrono::seconds kLeastForTrials{60};
@@ -141,7 +141,7 @@ class Run {
 
   int conclude(const Machine& machine, RunFrames& writer) {
     RunTotals totals = writer.totals();
-    totals.wall_seconds = std::chrono::duration<double>(Clock::now() - began_).count();
+    totals.wall_seconds = std::chrono::duration<double>(WallClock::now() - began_).count();
     totals.peak_megabytes = peak_memory_megabytes();
     totals.command = context_.command_line.text();
     if (images_.is_scene()) totals.scene_seed = options_.scene.seed;
@@ -169,8 +169,8 @@ class Run {
     if (base.rate == 0) return true;
     // A page says what all limits gain, whatever time that takes.
     if (!options_.report) {
-      const Clock::time_point now = Clock::now();
-      trials_->end_at(now + std::max<Clock::duration>(kLeastForTrials, kTrialsForRun * (now - began_)));
+      const WallClock::time_point now = WallClock::now();
+      trials_->end_at(now + std::max<WallClock::duration>(kLeastForTrials, kTrialsForRun * (now - began_)));
     }
     const Verdict verdict = find_verdict(
         configuration_.machine, base, options_.report ? Thoroughness::kAll : Thoroughness::kUntilCertain,
@@ -187,7 +187,7 @@ class Run {
                              interruption_);
   }
 
-  const Clock::time_point began_ = Clock::now();
+  const WallClock::time_point began_ = WallClock::now();
   const RunOptions& options_;
   CommandContext& context_;
   Notes notes_;

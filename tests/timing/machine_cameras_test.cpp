@@ -150,8 +150,8 @@ TEST(MachineCameras, ExposureMustFitIntoThePeriod) {
       "before it 270336, which allows at most 295.93 frames/s");
 }
 
-// A row of 160 bytes is through a cable of 20 MB/s after 8 us, though its pixels took the sensor 2 us; half a row
-// after half of that.
+// A row of 160 bytes is through a cable of 20 MB/s after 8 us, though its pixels took the sensor 2 us; half a
+// row after half of that.
 TEST(MachineCameras, ASlowCableBringsARowsBytesOverTheWholeRow) {
   const std::vector<std::string> slow{"camera.bytes_per_second=20000000", "camera.early_start_rows=1",
                                       "dma.camera.burst_bytes=80", "dma.camera.data_bits=64"};

@@ -94,8 +94,8 @@ TEST(MatcherStore, BothTogetherAndInTiles) {
 
 TEST(MatcherStore, ANarrowPortHoldsTheMatcherUp) {
   const std::vector<std::string> wide{"matching.path_storage=memory", "memory.model=bus",
-                                      "memory.bytes_per_cycle=1024", "memory.latency_cycles=0", "memory.latency_ns=0",
-                                      "software.response_ns=0"};
+                                      "memory.bytes_per_cycle=1024",  "memory.latency_cycles=0",
+                                      "memory.latency_ns=0",          "software.response_ns=0"};
   std::vector<std::string> narrow = wide;
   narrow.emplace_back("dma.buffer.data_bits=64");
   // 436 B a pixel at 8 B a cycle, over 63 rows of 160 pixels.
