@@ -93,6 +93,12 @@ void MatchingConfig::validate_tokens(int pixels) const {
         "and divide pipeline.pixels_per_token * matching.iterations = {}",
         parallel_rows, pixels, pixels * iterations));
   }
+  if (parallel_rows > 1 && (path_start == PathStart::kCarry || path_start == PathStart::kDelayLine)) {
+    throw UserError(
+        fmt::format("matching.parallel_rows = {}: needs matching.path_start = \"cost\" or \"clamp\", "
+                    "with others a row begins when the one above is done",
+                    parallel_rows));
+  }
   if (parallel_rows > 1 && path_storage == PathStorage::kMemory) {
     throw UserError(fmt::format(
         "matching.parallel_rows = {}: needs matching.path_storage = \"on_chip\", costs of rows at once "

@@ -90,7 +90,8 @@ struct MatchingConfig {
     return {static_cast<std::uint32_t>(pixels * iterations / parallel_rows), parallel_rows};
   }
   /// Throws UserError unless tokens of so many pixels go through the circuit in whole groups of costs, and in
-  /// whole columns of its parallel rows or the other way round.
+  /// whole columns of its parallel rows or the other way round; and for parallel rows that would have to wait
+  /// for the end of the row above, or for the memory.
   void validate_tokens(int pixels) const;
   void validate() const;
 };

@@ -36,7 +36,8 @@ void describe(Schema& schema, PipelineTiming& timing) {
       "pipeline.overlap_frames", timing.overlap_frames,
       "Whether stages that look ahead take the next frame in while the last rows of the one before go "
       "out, so that nothing is lost between frames. What a second pass over the image needs, or path "
-      "costs in memory with path e, is emptied first all the same.",
+      "costs in memory with path e, is emptied first all the same. Shows where frames queue in the core "
+      "(software.queue_frames).",
       chosen("not published; emptying the line buffers first is the simpler circuit"));
   describe_timing(schema, "map_decoder", "map entries", LooksAhead::kNo, timing.map_decoder);
   describe_timing(schema, "rectification", "pixel pairs", LooksAhead::kYes, timing.rectification);

@@ -107,9 +107,8 @@ void check_report(const RunOptions& options) {
 
 ImageLimits largest_images(const MachineConfig& config) {
   ImageLimits largest;
-  largest.width = config.image.max_width != 0
-                      ? static_cast<int>(config.image.max_width)
-                      : largest_width(config.tiles, config.matching.range(), config.timing.pixels_per_token);
+  largest.width = config.image.max_width != 0 ? static_cast<int>(config.image.max_width)
+                                              : largest_width(config.tiles, config.matching.range());
   largest.height = static_cast<int>(config.image.max_height);
   return largest;
 }

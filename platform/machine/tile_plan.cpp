@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numeric>
 
 #include "tlm/error.hpp"
 
@@ -17,8 +16,7 @@ struct Margins {
   int both() const { return left + right; }
 };
 
-int round_up(int value, int unit) { return (value + unit - 1) / unit * unit; }
-int round_up_to_even(int value) { return round_up(value, 2); }
+int round_up_to_even(int value) { return (value + 1) / 2 * 2; }
 
 Margins margins(const TileConfig& config, const DisparityRange& range) {
   const int disparities = config.disparities_in_margin ? range.offset + range.count : 0;
@@ -27,9 +25,8 @@ Margins margins(const TileConfig& config, const DisparityRange& range) {
 }
 
 // Columns that so many tiles of the full width contribute.
-int columns(int tiles, const TileConfig& config, int pixels, const Margins& margins) {
-  const int whole = std::lcm(pixels, 2);
-  const int limit = static_cast<int>(config.limit) / whole * whole;
+int columns(int tiles, const TileConfig& config, const Margins& margins) {
+  const int limit = config.limit;
   return tiles * limit - (tiles - 1) * margins.both();
 }
 
@@ -37,10 +34,9 @@ int columns(int tiles, const TileConfig& config, int pixels, const Margins& marg
 
 TilePlan one_tile(int width) { return {width, {{0, 0, width}}}; }
 
-int largest_width(const TileConfig& config, const DisparityRange& range, int pixels) {
+int largest_width(const TileConfig& config, const DisparityRange& range) {
   // Further tiles of nothing but margins would add nothing.
-  return std::max(columns(1, config, pixels, {}),
-                  columns(config.largest_number, config, pixels, margins(config, range)));
+  return std::max(columns(1, config, {}), columns(config.largest_number, config, margins(config, range)));
 }
 
 TilePlan plan_tiles(const TileConfig& config, const DisparityRange& range, int width, int pixels) {
@@ -52,7 +48,7 @@ TilePlan plan_tiles(const TileConfig& config, const DisparityRange& range, int w
   }
   if (width <= static_cast<int>(config.limit)) return one_tile(width);
   const Margins margin = margins(config, range);
-  if (width > largest_width(config, range, pixels)) {
+  if (width > largest_width(config, range)) {
     throw UserError(
         fmt::format("images of {} columns do not fit: {} tiles of {} columns (tiles.largest_number, "
                     "tiles.limit) that overlap by "
@@ -61,7 +57,7 @@ TilePlan plan_tiles(const TileConfig& config, const DisparityRange& range, int w
                     config.disparities_in_margin
                         ? fmt::format(" + disparity offset {} + range {}", range.offset, range.count)
                         : "",
-                    largest_width(config, range, pixels)));
+                    largest_width(config, range)));
   }
   if (width % 2 != 0) {
     throw UserError(fmt::format(
@@ -70,9 +66,16 @@ TilePlan plan_tiles(const TileConfig& config, const DisparityRange& range, int w
         width));
   }
   int number = 2;
-  while (columns(number, config, pixels, margin) < width) ++number;
+  while (columns(number, config, margin) < width) ++number;
   TilePlan plan;
-  plan.width = round_up((width + (number - 1) * margin.both() + number - 1) / number, std::lcm(pixels, 2));
+  plan.width = round_up_to_even((width + (number - 1) * margin.both() + number - 1) / number);
+  // Other places of the seams would be other disparities.
+  if (plan.width % pixels != 0) {
+    throw UserError(fmt::format(
+        "pipeline.pixels_per_token = {}: tiles of {} px are no whole number of tokens; other margins "
+        "(tiles.left_margin, tiles.right_margin) make other tiles",
+        pixels, plan.width));
+  }
   // Where tiles add little, what rounding adds makes some of them needless.
   const int step = plan.width - margin.both();
   number = 1 + (width - plan.width + step - 1) / step;

@@ -27,12 +27,12 @@ struct TilePlan {
 /// The plan for an image that is one tile.
 TilePlan one_tile(int width);
 
-/// The plan with the fewest tiles, each of whole tokens of `pixels` px. Throws UserError with the arithmetic
-/// when `width` is more than largest_width(), or no whole number of tokens.
+/// The plan with the fewest tiles. Throws UserError with the arithmetic when `width` is more than
+/// largest_width(), or when it, or a tile, is no whole number of tokens of `pixels` px.
 TilePlan plan_tiles(const TileConfig& config, const DisparityRange& range, int width, int pixels = 1);
 
 /// Columns of the widest image that the tiles hold.
-int largest_width(const TileConfig& config, const DisparityRange& range, int pixels = 1);
+int largest_width(const TileConfig& config, const DisparityRange& range);
 
 /// The map of an image cut for its tiles: the rows of tile 0, then those of tile 1, ...
 EncodedMap cut_map(const EncodedMap& map, const TilePlan& plan);

@@ -59,6 +59,12 @@ TEST_F(BadConfiguration, ParallelRowsAndTokens) {
          "matching.parallel_rows = 2: needs matching.path_storage = \"on_chip\", costs of rows at once do "
          "not pass "
          "the memory");
+  for (const char* start : {"carry", "delay_line"}) {
+    starts(std::string("--set matching.parallel_rows=2 --set matching.path_start=") + start,
+           "matching.parallel_rows = 2: needs matching.path_start = \"cost\" or \"clamp\", with others a row "
+           "begins "
+           "when the one above is done");
+  }
   EXPECT_EQ(
       error("--set pipeline.pixels_per_token=3"),
       "pipeline.pixels_per_token = 3: rows of 64 px are no whole number of tokens; image.width_granularity = "
