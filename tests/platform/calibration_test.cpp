@@ -16,20 +16,7 @@ using test::message;
 using test::SyntheticPair;
 using test::with_entry;
 
-class CalibrationTest : public test::FolderTest {
- protected:
-  // The line for a calibration in which one entry has been replaced, without the file name.
-  std::string changed(const std::string& name, const std::string& line,
-                      const SyntheticPair& pair = {}) const {
-    const std::string file = write("c.yml", with_entry(pair.text(), name, line));
-    const std::string text = message([&] { read_calibration({file}); });
-    const std::string prefix = file + ": ";
-    if (text.empty()) return text;
-    EXPECT_EQ(text.substr(0, prefix.size()), prefix);
-    EXPECT_EQ(text.find('\n'), std::string::npos);
-    return text.size() > prefix.size() ? text.substr(prefix.size()) : text;
-  }
-};
+class CalibrationTest : public test::ChangedCalibrationTest {};
 
 TEST_F(CalibrationTest, ReadsTheSharedOnes) {
   for (const char* scene : {"euroc_v101", "opencv_chessboard01", "kitti_seq2"}) {

@@ -17,20 +17,7 @@ using test::message;
 using test::SyntheticPair;
 using test::with_entry;
 
-class OpenCvCalibration : public test::FolderTest {
- protected:
-  // The line for a calibration in which one entry has been replaced, without the file name.
-  std::string changed(const std::string& name, const std::string& line,
-                      const SyntheticPair& pair = {}) const {
-    const std::string file = write("c.yml", with_entry(pair.text(), name, line));
-    const std::string text = message([&] { read_calibration({file}); });
-    const std::string prefix = file + ": ";
-    if (text.empty()) return text;
-    EXPECT_EQ(text.substr(0, prefix.size()), prefix);
-    EXPECT_EQ(text.find('\n'), std::string::npos);
-    return text.size() > prefix.size() ? text.substr(prefix.size()) : text;
-  }
-};
+class OpenCvCalibration : public test::ChangedCalibrationTest {};
 
 constexpr const char* kRectifiedHead = "%YAML:1.0\n---\ncamera_model: rectified\nimage_size: [640, 480]\n";
 

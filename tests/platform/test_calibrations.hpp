@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "platform/input/read_calibration.hpp"
 #include "tests/platform/temporary_folder.hpp"
 #include "tlm/error.hpp"
 
@@ -90,5 +91,21 @@ inline std::string with_entry(std::string text, const std::string& name, const s
   }
   return text.replace(begin, end - begin, line.empty() ? "" : line + "\n");
 }
+
+/// Calibrations of which one entry is another.
+class ChangedCalibrationTest : public FolderTest {
+ protected:
+  /// The line for a calibration in which one entry has been replaced, without the file name.
+  std::string changed(const std::string& name, const std::string& line,
+                      const SyntheticPair& pair = {}) const {
+    const std::string file = write("c.yml", with_entry(pair.text(), name, line));
+    const std::string text = message([&] { read_calibration({file}); });
+    const std::string prefix = file + ": ";
+    if (text.empty()) return text;
+    EXPECT_EQ(text.substr(0, prefix.size()), prefix);
+    EXPECT_EQ(text.find('\n'), std::string::npos);
+    return text.size() > prefix.size() ? text.substr(prefix.size()) : text;
+  }
+};
 
 }  // namespace parallax::test
