@@ -3,7 +3,9 @@
 
 #include <cstddef>
 #include <deque>
+#include <optional>
 #include <stdexcept>
+#include <utility>
 
 namespace parallax {
 
@@ -14,6 +16,9 @@ class KeptRecords {
  public:
   /// From now on at least the first `number` and the last `number` are kept. Until it is called, all.
   void keep(std::size_t number) { kept_ = number; }
+
+  /// Record `i`, which must be kept still, is kept in any case, in place of the one that was pinned before.
+  void pin(std::size_t i) { pinned_.emplace(i, (*this)[i]); }
 
   std::size_t size() const { return first_.size() + dropped_ + last_.size(); }
   bool empty() const { return first_.empty(); }
@@ -33,6 +38,7 @@ class KeptRecords {
   /// Throws std::out_of_range for one that is not kept.
   const T& operator[](std::size_t i) const {
     if (i < first_.size()) return first_[i];
+    if (pinned_ && pinned_->first == i) return pinned_->second;
     if (i < first_.size() + dropped_) throw std::out_of_range("a record that was not kept");
     return last_.at(i - first_.size() - dropped_);
   }
@@ -42,6 +48,7 @@ class KeptRecords {
   std::deque<T> first_;
   std::deque<T> last_;
   std::size_t dropped_ = 0;  // between them
+  std::optional<std::pair<std::size_t, T>> pinned_;
 };
 
 }  // namespace parallax

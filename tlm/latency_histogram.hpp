@@ -23,6 +23,14 @@ class LatencyHistogram {
     sum_ += latency;
     largest_ = std::max(largest_, latency);
   }
+  LatencyHistogram& operator+=(const LatencyHistogram& other) {
+    bins_.resize(std::max(bins_.size(), other.bins_.size()));
+    for (std::size_t bin = 0; bin < other.bins_.size(); ++bin) bins_[bin] += other.bins_[bin];
+    count_ += other.count_;
+    sum_ += other.sum_;
+    largest_ = std::max(largest_, other.largest_);
+    return *this;
+  }
   std::uint64_t count() const { return count_; }
   const sc_core::sc_time& sum() const { return sum_; }
   const sc_core::sc_time& largest() const { return largest_; }

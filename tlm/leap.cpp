@@ -133,7 +133,7 @@ void Leap::scan(Member& member) {
     const unsigned here = ports(phase.consume, phase.produce);
     const unsigned loose = here & ~core;
     if (((here ^ common) & core) != 0 || phase.interval != member.common.interval ||
-        (here == 0) != (common == 0)) {
+        phase.idle != member.common.idle) {
       member.ended = true;
       break;
     }

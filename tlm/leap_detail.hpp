@@ -19,11 +19,9 @@ inline PortMask without(PortMask ports, PortMask core) { return mask(ports & ~un
 inline PortMask within(PortMask ports, PortMask core) { return mask(unsigned{ports} & core); }
 inline bool contains(PortMask mask, PortMask port) { return (mask & port) != 0; }
 
-inline bool idle(const Phase& phase) { return phase.consume == 0 && phase.produce == 0; }
-
 // Whether two phases do the same to the core ports, and count as the same kind of time.
 inline bool same_in(const Phase& a, const Phase& b, PortMask in, PortMask out) {
-  return a.interval == b.interval && idle(a) == idle(b) && within(a.consume, in) == within(b.consume, in) &&
+  return a.interval == b.interval && a.idle == b.idle && within(a.consume, in) == within(b.consume, in) &&
          within(a.produce, out) == within(b.produce, out);
 }
 

@@ -165,7 +165,7 @@ bool Leap::find_unit(Member& member, PortMask& mixed_in, PortMask& mixed_out) {
   while (looked < kLookedAt && at.segment < schedule.segments().size()) {
     const Schedule::Segment& here = schedule.segments()[at.segment];
     const Phase& phase = schedule.phases()[here.first_phase + at.phase];
-    if (phase.interval != member.common.interval || idle(phase) != idle(member.common)) break;
+    if (phase.interval != member.common.interval || phase.idle != member.common.idle) break;
     any_in |= phase.consume;
     any_out |= phase.produce;
     all_in &= phase.consume;

@@ -10,12 +10,14 @@ namespace parallax {
 using PortMask = std::uint8_t;
 
 /// `count` firings in a row that all read one token from each port of `consume`, write one token to each port
-/// of `produce`, and keep the stage busy for `interval` cycles. A firing with neither is idle time.
+/// of `produce`, and keep the stage busy for `interval` cycles. A firing may do neither: a step between those
+/// that do.
 struct Phase {
   std::uint32_t count = 1;
   std::uint32_t interval = 1;
   PortMask consume = 0;
   PortMask produce = 0;
+  bool idle = false;  ///< no work, but a declared pause; with neither
 
   // Put down as a data sheet reads: fires(20).reads(0b11).writes(0b1).every(3).
   constexpr Phase reads(unsigned ports) const {
@@ -24,18 +26,19 @@ struct Phase {
   constexpr Phase writes(unsigned ports) const {
     return {count, interval, consume, static_cast<PortMask>(ports)};
   }
-  constexpr Phase every(std::uint32_t cycles) const { return {count, cycles, consume, produce}; }
+  constexpr Phase every(std::uint32_t cycles) const { return {count, cycles, consume, produce, idle}; }
 
   /// Whether a firing of this phase does what one of the other does.
   constexpr bool like(const Phase& other) const {
-    return interval == other.interval && consume == other.consume && produce == other.produce;
+    return interval == other.interval && consume == other.consume && produce == other.produce &&
+           idle == other.idle;
   }
 };
 
 /// So many firings, less than 2^32, an interval of 1 cycle each; what they read and write is said with it.
-constexpr Phase fires(std::uint64_t times = 1) { return {static_cast<std::uint32_t>(times), 1, 0, 0}; }
+constexpr Phase fires(std::uint64_t times = 1) { return {static_cast<std::uint32_t>(times), 1}; }
 /// Idle time of so many cycles.
-constexpr Phase idles(std::uint32_t cycles) { return {cycles == 0 ? 0U : 1U, cycles, 0, 0}; }
+constexpr Phase idles(std::uint32_t cycles) { return {cycles == 0 ? 0U : 1U, cycles, 0, 0, true}; }
 
 /// Firings put down one after the other: those that do the same as the one before lengthen its phase.
 class Firings {

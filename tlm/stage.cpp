@@ -136,8 +136,7 @@ bool Stage::fire() {
   const Cycles start = std::max(ready, room);
   const Cycles starved = ready - free_;
   const Cycles blocked = start - ready;
-  const StageActivity work =
-      phase.consume == 0 && phase.produce == 0 ? StageActivity::kBlanking : StageActivity::kBusy;
+  const StageActivity work = phase.idle ? StageActivity::kBlanking : StageActivity::kBusy;
   StageActivity input_wait = StageActivity::kStarved;
   if (starved > Cycles(0)) {
     if (latest->at_memory()) {

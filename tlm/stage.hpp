@@ -72,6 +72,11 @@ class Stage : public sc_core::sc_module, public Actor {
   }
   /// At least the first and the last `number` of these are kept; all, unless this is called.
   void keep_frames(std::size_t number) { frames_.keep(number); }
+  /// Likewise the dates of frame `frame`, in place of the one that was pinned before.
+  void pin_frame(std::size_t frame) {
+    dataflow_.bring_up_to_date();
+    frames_.pin(frame);
+  }
   /// Notifies `listener` of the firings from here on, besides all others (Listeners::add).
   void add_listener(StageListener& listener) {
     dataflow_.bring_up_to_date();

@@ -15,7 +15,7 @@ class StreamBase;
 
 /// What a stage's cycles go into.
 enum class StageActivity : std::uint8_t {
-  kBusy,          ///< firing with a token on some port
+  kBusy,          ///< firing
   kStarved,       ///< held back by an empty input
   kBlocked,       ///< held back by a full output
   kMemory,        ///< held back by a stream from or to a memory port, within a frame

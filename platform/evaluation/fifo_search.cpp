@@ -3,11 +3,14 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
 
 namespace parallax {
 namespace {
 
 using Set = std::vector<Relaxation>;
+
+constexpr std::int64_t kMostTimes = 1024;  // a FIFO of one token gets so many more
 
 bool gains_enough(const RelaxedLimit& limit, double enough) { return limit.measured && limit.gain >= enough; }
 
@@ -45,29 +48,18 @@ std::optional<RelaxedLimit> first_of(Trials& trials, const Set& fifos, std::size
   return std::nullopt;
 }
 
-}  // namespace
-
-std::optional<RelaxedLimit> first_fifo(Trials& trials, const Set& fifos, double enough) {
-  if (fifos.empty()) return std::nullopt;
-  return first_of(trials, fifos, 1, enough);
-}
-
-RelaxedLimit shallowest(Trials& trials, const MachineConfig& config, const RelaxedLimit& deep,
-                        double enough) {
-  const MetricGroup& metrics = trials.base().metrics;
-  const std::string& stream = deep.relaxation.fifo;
-  std::vector<std::int64_t> depths = fifo_depths(config, metrics, stream);
-  const bool has_another = !depths.empty() && depths.back() == 0;
-  if (has_another) depths.pop_back();
-  RelaxedLimit least = deep;
-  // depths[first] to depths[last - 1] are unknown, what is deeper is enough. Two at a time, as processors
-  // are.
+// The first of `depths`, which ascend, that gains enough, by bisection into three: two are tried at a time,
+// as processors are.
+std::optional<RelaxedLimit> least_depth(Trials& trials, const std::vector<std::int64_t>& depths,
+                                        const std::function<Relaxation(std::int64_t)>& with, double enough) {
+  std::optional<RelaxedLimit> least;
+  // depths[first] to depths[last - 1] are unknown, what is deeper is enough.
   for (std::size_t first = 0, last = depths.size(); first < last;) {
     const std::size_t third = (last - first) / 3;
     std::vector<std::size_t> probes{first + third};
     if (last - 1 - third > probes[0]) probes.push_back(last - 1 - third);
     Set tried;
-    for (const std::size_t probe : probes) tried.push_back(fifo_relaxation(metrics, stream, depths[probe]));
+    for (const std::size_t probe : probes) tried.push_back(with(depths[probe]));
     const std::vector<RelaxedLimit> measured = trials.measure(tried);
     for (std::size_t i = probes.size(); i-- > 0;) {
       if (!gains_enough(measured[i], enough)) {
@@ -78,9 +70,49 @@ RelaxedLimit shallowest(Trials& trials, const MachineConfig& config, const Relax
       last = probes[i];
     }
   }
+  return least;
+}
+
+}  // namespace
+
+std::optional<RelaxedLimit> first_fifo(Trials& trials, const Set& fifos, double enough) {
+  if (fifos.empty()) return std::nullopt;
+  return first_of(trials, fifos, 1, enough);
+}
+
+RelaxedLimit shallowest(Trials& trials, const MachineConfig& config, const RelaxedLimit& deep,
+                        double enough) {
+  const MetricGroup& metrics = trials.base().metrics;
+  const std::string& stream = deep.relaxation.fifos.front();
+  std::vector<std::int64_t> depths = fifo_depths(config, metrics, stream);
+  const bool has_another = !depths.empty() && depths.back() == 0;
+  if (has_another) depths.pop_back();
+  const auto with = [&](std::int64_t tokens) { return fifo_relaxation(metrics, stream, tokens); };
+  const RelaxedLimit least = least_depth(trials, depths, with, enough).value_or(deep);
   if (!has_another) return least;
   const std::optional<RelaxedLimit> derived = with_derived_depth(trials, stream, enough);
   return derived && depth_of(derived->relaxation) < depth_of(least.relaxation) ? *derived : least;
+}
+
+RelaxedLimit shallowest_of_several(Trials& trials, const RelaxedLimit& deep, double enough) {
+  const auto with = [&](std::int64_t times) {
+    return fifos_relaxation(trials.base().metrics, deep.relaxation.fifos, times);
+  };
+  std::vector<std::int64_t> all;
+  for (std::int64_t times = 2; times <= kMostTimes; times *= 2) all.push_back(times);
+  return least_depth(trials, all, with, enough).value_or(deep);
+}
+
+std::optional<RelaxedLimit> least_default_depth(Trials& trials, const MachineConfig& config, const Set& fifos,
+                                                double enough) {
+  constexpr std::int64_t kDeepest = 65536;  // that the configuration takes
+  if (!default_depth_relaxation(config, fifos, kDeepest)) return std::nullopt;
+  std::vector<std::int64_t> depths;
+  for (std::int64_t tokens = 2 * std::int64_t{config.streams.default_depth}; tokens <= kDeepest; tokens *= 2)
+    depths.push_back(tokens);
+  return least_depth(
+      trials, depths, [&](std::int64_t tokens) { return *default_depth_relaxation(config, fifos, tokens); },
+      enough);
 }
 
 }  // namespace parallax

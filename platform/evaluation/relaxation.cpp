@@ -14,8 +14,13 @@ constexpr std::int64_t kDeeper = 16;
 constexpr std::int64_t kDeepest = 1 << 20;  // tokens; deeper FIFOs take memory of this computer
 
 Relaxation one(Relief limit, std::string meaning, std::string remedy, std::vector<std::string> assignments) {
-  return {name_of(limit),    spoken(name_of(limit)), std::move(meaning),
-          std::move(remedy), std::move(assignments), {limit}};
+  Relaxation relaxation{name_of(limit),    spoken(name_of(limit)), std::move(meaning),
+                        std::move(remedy), std::move(assignments), {limit}};
+  relaxation.subject_is_plural = limit == Relief::kFifos || limit == Relief::kBuffers;
+  relaxation.remedy_is_plural = relaxation.subject_is_plural || limit == Relief::kDma ||
+                                limit == Relief::kCamera || limit == Relief::kPathStorage;
+  if (limit == Relief::kFifos) relaxation.subject = "FIFOs";
+  return relaxation;
 }
 
 Relaxation clock(Relief limit, const char* name, std::int64_t hertz) {
@@ -132,16 +137,18 @@ std::vector<Relaxation> relaxations(const MachineConfig& config, const MetricGro
   return all;
 }
 
-std::vector<Relaxation> fifo_relaxations(const MetricGroup& metrics) {
-  std::vector<std::pair<double, Relaxation>> full;
+std::vector<Relaxation> fifo_relaxations(const MetricGroup& metrics, bool full) {
+  std::vector<std::pair<double, Relaxation>> found;
   for (const std::string& stream : pipeline_stream_names()) {
     const MetricGroup* const group = metrics.find_group("streams/" + stream);
-    if (group == nullptr || group->number("full") == 0) continue;
-    full.emplace_back(group->number("full"), fifo_relaxation(metrics, stream, deeper(group->count("depth"))));
+    if (group == nullptr || (full && group->number("full") == 0)) continue;
+    found.emplace_back(group->number("full"),
+                       fifo_relaxation(metrics, stream, deeper(group->count("depth"))));
   }
-  std::stable_sort(full.begin(), full.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::stable_sort(found.begin(), found.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
   std::vector<Relaxation> all;
-  for (auto& [share, relaxation] : full) all.push_back(std::move(relaxation));
+  for (auto& [share, relaxation] : found) all.push_back(std::move(relaxation));
   return all;
 }
 
@@ -151,8 +158,43 @@ Relaxation fifo_relaxation(const MetricGroup& metrics, const std::string& stream
                         fmt::format("a depth of {}", tokens), {depth_of(stream, tokens)});
   fifo.name = "fifo_" + stream;
   fifo.subject = fmt::format("FIFO {} with its depth of {}", stream, depth);
-  fifo.fifo = stream;
+  fifo.fifos = {stream};
+  fifo.subject_is_plural = fifo.remedy_is_plural = false;
   return fifo;
+}
+
+Relaxation fifos_relaxation(const MetricGroup& metrics, const std::vector<std::string>& streams,
+                            std::int64_t times) {
+  constexpr std::size_t kMostInWords = 3;
+  std::vector<Relaxation> each;
+  for (const std::string& stream : streams) {
+    const std::int64_t depth = metrics.count("streams/" + stream + "/depth");
+    each.push_back(fifo_relaxation(metrics, stream, std::min(times * depth, deeper(depth))));
+  }
+  Relaxation all = together(each);
+  if (streams.size() <= kMostInWords) return all;
+  all.subject = fmt::format("FIFOs {}", fmt::join(streams, ", "));
+  all.remedy = fmt::format("{} times their depths", times);
+  return all;
+}
+
+std::optional<Relaxation> default_depth_relaxation(const MachineConfig& config,
+                                                   const std::vector<Relaxation>& fifos,
+                                                   std::int64_t tokens) {
+  const std::int64_t now = config.streams.default_depth;
+  const auto has_it = [&](const Relaxation& fifo) {
+    const auto configured = std::find_if(config.streams.depths.begin(), config.streams.depths.end(),
+                                         [&](const StreamDepth& d) { return d.name == fifo.fifos.front(); });
+    return configured->tokens == 0;
+  };
+  if (std::count_if(fifos.begin(), fifos.end(), has_it) < 2) return std::nullopt;
+  Relaxation all =
+      one(Relief::kFifos, fmt::format("default depth {} instead of {} tokens", tokens, now),
+          fmt::format("a default depth of {}", tokens), {fmt::format("streams.default_depth={}", tokens)});
+  all.name = "fifos_default_depth";
+  all.remedy_is_plural = false;
+  all.subject = fmt::format("FIFOs with their default depth of {}", now);
+  return all;
 }
 
 std::vector<std::int64_t> fifo_depths(const MachineConfig& config, const MetricGroup& metrics,
@@ -170,7 +212,7 @@ Relaxation together(const std::vector<Relaxation>& some) {
   if (some.size() == 1) return some.front();
   const auto has = [&](Relief limit) {
     return std::any_of(some.begin(), some.end(), [limit](const Relaxation& r) {
-      return r.fifo.empty() && std::find(r.limits.begin(), r.limits.end(), limit) != r.limits.end();
+      return r.fifos.empty() && std::find(r.limits.begin(), r.limits.end(), limit) != r.limits.end();
     });
   };
   Relaxation all;
@@ -184,10 +226,12 @@ Relaxation together(const std::vector<Relaxation>& some) {
     join(all.meaning, "; ", relaxation.meaning);
     join(all.remedy, " and ", relaxation.remedy);
     all.limits.insert(all.limits.end(), relaxation.limits.begin(), relaxation.limits.end());
+    all.fifos.insert(all.fifos.end(), relaxation.fifos.begin(), relaxation.fifos.end());
+    all.subject_is_plural = all.remedy_is_plural = true;
     const bool held_by_another =
         (relaxation.limits.front() == Relief::kCameraClock && has(Relief::kCamera)) ||
         (relaxation.limits.front() == Relief::kMemoryClock && has(Relief::kMemory)) ||
-        (!relaxation.fifo.empty() && has(Relief::kFifos));
+        (!relaxation.fifos.empty() && has(Relief::kFifos));
     if (held_by_another) continue;
     all.assignments.insert(all.assignments.end(), relaxation.assignments.begin(),
                            relaxation.assignments.end());

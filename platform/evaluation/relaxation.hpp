@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,20 +21,33 @@ struct Relaxation {
   std::string remedy;                    ///< the same in a sentence: "... gives 143 fps"
   std::vector<std::string> assignments;  ///< "key=value"
   std::vector<Relief> limits;            ///< which; of a single FIFO Relief::kFifos
-  std::string fifo{};                    ///< of a single FIFO: its stream
+  std::vector<std::string> fifos{};      ///< of single FIFOs: their streams
+  bool subject_is_plural = false;        ///< "buffers limit"
+  bool remedy_is_plural = false;         ///< "deeper FIFOs give"
+
+  bool is(Relief limit) const { return limits.size() == 1 && limits.front() == limit; }
 };
 
 /// Each limit alone: all that make sense for a machine; those that would change nothing are left out.
 /// `metrics`: of its run, for the depths that its FIFOs have.
 std::vector<Relaxation> relaxations(const MachineConfig& config, const MetricGroup& metrics);
 
-/// Each FIFO alone that is full at times, deep, the one that is so for longest first. One that never is holds
-/// nothing back.
-std::vector<Relaxation> fifo_relaxations(const MetricGroup& metrics);
+/// Each FIFO alone, deep, the one that is full for longest first. One that never is holds nothing back,
+/// unless others hand more to it. `full`: those only that are at times.
+std::vector<Relaxation> fifo_relaxations(const MetricGroup& metrics, bool full);
+
+/// Several FIFOs, each with so many times its tokens, at most what fifo_relaxations() gives it.
+Relaxation fifos_relaxation(const MetricGroup& metrics, const std::vector<std::string>& streams,
+                            std::int64_t times);
 
 /// The FIFO of this stream with so many tokens in place of those that it has; 0: as many as the model
 /// derives.
 Relaxation fifo_relaxation(const MetricGroup& metrics, const std::string& stream, std::int64_t tokens);
+
+/// Those of these FIFOs that have the depth of `streams.default_depth`, with another: together, by that key.
+/// None where fewer than two have.
+std::optional<Relaxation> default_depth_relaxation(const MachineConfig& config,
+                                                   const std::vector<Relaxation>& fifos, std::int64_t tokens);
 
 /// Depths to try for it: from twice what it has up to what fifo_relaxations() gives it, each twice the one
 /// before; and 0 where the configuration says another than the model derives.

@@ -24,37 +24,60 @@ bool relieves_the_busiest(const Relaxation& relaxation, const EvaluationResult& 
   return std::find(names.begin(), names.end(), relaxation.name) != names.end();
 }
 
-std::string sentence_of_all(const EvaluationResult& base, const RelaxedLimits& limits) {
-  const bool busy = base.limit.part != "none";
+std::string gives(const RelaxedLimit& limit) {
+  return fmt::format("{} {} {}", limit.relaxation.remedy,
+                     limit.relaxation.remedy_is_plural ? "give" : "gives",
+                     quantity_text(limit.frame_rate, "frames/s"));
+}
+
+// The core is at work while it waits for software, so that says nothing where software limits.
+bool is_at_work_itself(const EvaluationResult& base, const Relaxation& relaxation) {
+  return relieves_the_busiest(relaxation, base) &&
+         !(base.limit.part == "core" && relaxation.is(Relief::kSoftware));
+}
+
+std::string sentence_of_limit(const EvaluationResult& base, const RelaxedLimit& found) {
+  const Relaxation& relaxation = found.relaxation;
   const std::string part = spoken(base.limit.part);
-  if (!limits.limit) return "nothing limits alone, and nothing that was tried gains anything together";
-  const RelaxedLimit& found = *limits.limit;
+  const std::string utilisation = quantity_text(base.limit.utilisation, "%");
+  const bool own = is_at_work_itself(base, relaxation);
   std::string text;
-  if (found.relaxation.limits.size() > 1) {
-    text = fmt::format("{} limit together", found.relaxation.subject);
-  } else if (busy && relieves_the_busiest(found.relaxation, base)) {
-    text = fmt::format("{} limits at {}", part, quantity_text(base.limit.utilisation, "%"));
+  if (relaxation.limits.size() > 1) {
+    text = relaxation.subject + " limit together";
+  } else if (own) {
+    text = fmt::format("{} limits at {}", part, utilisation);
   } else {
-    text = found.relaxation.subject + " limits";
-    if (busy)
-      text += fmt::format(", though {} is at work for {} of the time", part,
-                          quantity_text(base.limit.utilisation, "%"));
+    text = relaxation.subject + (relaxation.subject_is_plural ? " limit" : " limits");
+    if (base.limit.part != "none" && !relieves_the_busiest(relaxation, base))
+      text += fmt::format(", though {} is at work for {} of the time", part, utilisation);
   }
-  text += fmt::format("; {} {} {}", found.relaxation.remedy,
-                      found.relaxation.limits.size() > 1 ? "give" : "gives",
-                      quantity_text(found.frame_rate, "frames/s"));
+  text += "; " + gives(found);
   if (found.next_part == "none") return text + ", and then no part limits alone";
-  if (found.next_part == base.limit.part) return text + fmt::format(", and {} still limits", part);
+  if (own && found.next_part == base.limit.part) return text + fmt::format(", and {} still limits", part);
   return text + fmt::format(", then {} limits", spoken(found.next_part));
 }
 
-std::string sentence(const EvaluationResult& base, const RelaxedLimits& limits, bool complete) {
-  if (complete) return sentence_of_all(base, limits);
-  if (!limits.limit)
+std::string sentence_of_all(const EvaluationResult& base, const Verdict& verdict) {
+  if (!verdict.limits.limit)
+    return "nothing limits alone, and nothing that was tried gains anything together";
+  std::string text = sentence_of_limit(base, *verdict.limits.limit);
+  if (verdict.all_fifos)
+    text += "; all FIFOs deeper give " + quantity_text(verdict.all_fifos->frame_rate, "frames/s");
+  if (verdict.faster_clock)
+    text += fmt::format("; {}, as it shortens these waits too", gives(*verdict.faster_clock));
+  return text;
+}
+
+std::string sentence(const EvaluationResult& base, const Verdict& verdict) {
+  if (verdict.complete) return sentence_of_all(base, verdict);
+  if (!verdict.limits.limit)
     return "the time for trials was over before a limit was found; --relax takes the time that it needs";
-  return sentence_of_all(base, limits) +
+  return sentence_of_all(base, verdict) +
          "; the time for trials was over before all others were tried, --relax tries them";
 }
+
+// The share of a frame's time that goes when a limit does.
+double share_of(const RelaxedLimit& limit) { return 1 - 1 / (1 + limit.gain / 100); }
 
 class Search {
  public:
@@ -65,15 +88,15 @@ class Search {
   }
 
   Verdict find(Thoroughness thoroughness) {
-    bool complete = true;
     try {
       search(thoroughness);
     } catch (const TrialsEnded&) {
-      complete = false;
+      found_.complete = false;
       if (!limits_.limit && !limits_.alone.empty() && limits_.alone.front().gains())
         limits_.limit = limits_.alone.front();
     }
-    return {sentence(trials_.base(), limits_, complete), limits_, complete};
+    found_.sentence = sentence(trials_.base(), found_);
+    return found_;
   }
 
  private:
@@ -91,11 +114,41 @@ class Search {
     }
     if (limits_.alone.empty() || !limits_.alone.front().gains()) {
       limits_.limit = fewest(all_, kLeastTogether);
-    } else if (limits_.alone.front().relaxation.name == name_of(Relief::kFifos)) {
-      name_fifos(RelaxedLimit(limits_.alone.front()), thoroughness);
-    } else {
-      limits_.limit = limits_.alone.front();
+      return;
     }
+    limits_.limit = limits_.alone.front();
+    if (limits_.limit->relaxation.is(Relief::kCoreClock)) look_behind_the_clock();
+    if (limits_.limit->relaxation.is(Relief::kFifos)) name_fifos(RelaxedLimit(*limits_.limit), thoroughness);
+  }
+
+  // A faster clock shortens every cycle of the core, those in which it waits for a FIFO or a buffer, too: all
+  // gains by it are in proportion. Where what a limit costs is a part of the core's own cycles, that limit is
+  // named.
+  void look_behind_the_clock() {
+    const RelaxedLimit clock = *limits_.limit;
+    const double outside = 1 - 2 * share_of(clock);  // of a frame's time, as half of the rest went
+    const auto inside = [&](const RelaxedLimit& limit) {
+      return limit.measured && share_of(limit) > outside + kLeastInside;
+    };
+    std::vector<Relaxation> others;
+    std::copy_if(all_.begin(), all_.end(), std::back_inserter(others), [this](const Relaxation& relaxation) {
+      return !is_clock(relaxation) &&
+             (!relieves_the_busiest(relaxation, trials_.base()) || relaxation.is(Relief::kSoftware));
+    });
+    if (others.empty() || !inside(trials_.measure(together(others)))) return;
+    std::optional<RelaxedLimit> best;
+    AloneSearch(trials_, [&](const RelaxedLimit& limit) {
+      add_once(limit);
+      if (inside(limit) && (!best || limit.gain > best->gain)) best = limit;
+    }).run({}, others);
+    if (!best) return;
+    limits_.limit = best;
+    found_.faster_clock = clock;
+  }
+
+  static bool is_clock(const Relaxation& relaxation) {
+    return relaxation.is(Relief::kCoreClock) || relaxation.is(Relief::kMemoryClock) ||
+           relaxation.is(Relief::kCameraClock) || relaxation.is(Relief::kLinkClock);
   }
 
   std::size_t rank(const RelaxedLimit& limit) const {
@@ -114,24 +167,54 @@ class Search {
     limits_.alone.insert(after, limit);
   }
 
-  // `all`: what deeper FIFOs gain, all of them. Names the one that does it and the least depth of those tried
-  // that is enough, or the fewest.
+  void add_once(const RelaxedLimit& limit) {
+    const bool known = std::any_of(
+        limits_.alone.begin(), limits_.alone.end(),
+        [&](const RelaxedLimit& other) { return other.relaxation.name == limit.relaxation.name; });
+    if (!known) add(limit);
+  }
+
+  // `all`: what deeper FIFOs gain, all of them. Names the one that does it, or most of it, and the least
+  // depth of those tried that is enough; or the default depth that does it; or the fewest.
   void name_fifos(const RelaxedLimit& all, Thoroughness thoroughness) {
     limits_.limit = all;
     const double enough = all.gain - RelaxedLimit::kNoise;
-    const std::vector<Relaxation> fifos = fifo_relaxations(trials_.base().metrics);
+    const std::vector<Relaxation> fifos = fifo_relaxations(trials_.base().metrics, true);
     if (thoroughness == Thoroughness::kAll) trials_.measure(fifos);
     if (std::optional<RelaxedLimit> one = first_fifo(trials_, fifos, enough)) {
       limits_.limit = one;
       limits_.limit = shallowest(trials_, config_, *one, enough);
-    } else if (std::optional<RelaxedLimit> several = fewest(fifos, enough)) {
-      limits_.limit = std::move(several);
+    } else if (std::optional<RelaxedLimit> most = best_fifo(fifos);
+               most && most->gain >= kMostOfIt * all.gain) {
+      limits_.limit = most;
+      found_.all_fifos = all;
+      limits_.limit = shallowest(trials_, config_, *most, most->gain - RelaxedLimit::kNoise);
+    } else if (std::optional<RelaxedLimit> by_default =
+                   least_default_depth(trials_, config_, fifos, enough)) {
+      limits_.limit = std::move(by_default);
+    } else if (std::optional<RelaxedLimit> several = fewest_fifos(fifos, enough)) {
+      limits_.limit = several;
+      limits_.limit = shallowest_of_several(trials_, *several, enough);
     }
     for (const Relaxation& fifo : fifos) {
       const bool named = limits_.limit_name() == fifo.name;
       const std::optional<RelaxedLimit> tried = named ? limits_.limit : trials_.measured(fifo);
       if (tried && tried->gains()) add(*tried);
     }
+  }
+
+  std::optional<RelaxedLimit> best_fifo(const std::vector<Relaxation>& fifos) {
+    std::optional<RelaxedLimit> best;
+    AloneSearch(trials_, [&](const RelaxedLimit& limit) {
+      if (limit.gains() && (!best || limit.gain > best->gain)) best = limit;
+    }).run({}, fifos);
+    return best;
+  }
+
+  // Of those that are full, or of all: as these hand more on, others may hold it up.
+  std::optional<RelaxedLimit> fewest_fifos(const std::vector<Relaxation>& full, double enough) {
+    const std::optional<RelaxedLimit> some = fewest(full, enough);
+    return some ? some : fewest(fifo_relaxations(trials_.base().metrics, false), enough);
   }
 
   // The fewest of them that together gain `least`, if all do: halves of them are left out, then quarters, as
@@ -157,12 +240,15 @@ class Search {
     return found;
   }
 
-  static constexpr double kLeastTogether = 1;  // %
+  static constexpr double kLeastTogether = 1;   // %
+  static constexpr double kLeastInside = 0.05;  // of a frame's time
+  static constexpr double kMostOfIt = 0.5;      // of what all FIFOs gain
 
   const MachineConfig& config_;
   Trials trials_;
   std::vector<Relaxation> all_;
-  RelaxedLimits limits_;
+  Verdict found_;
+  RelaxedLimits& limits_ = found_.limits;
 };
 
 }  // namespace
@@ -178,6 +264,8 @@ void add_verdict(MetricGroup& root, const Verdict& verdict) {
   out.add("limit/verdict", verdict.sentence);
   out.add("limit/relaxation", limits.limit_name());
   out.add("limit/relaxed_frame_rate", limits.limit ? limits.limit->frame_rate : limits.frame_rate);
+  if (verdict.all_fifos) out.add("limit/all_fifos_frame_rate", verdict.all_fifos->frame_rate);
+  if (verdict.faster_clock) out.add("limit/faster_clock_frame_rate", verdict.faster_clock->frame_rate);
   out.add("limit/relaxed_part", limits.limit ? limits.limit->next_part : std::string("none"));
 }
 

@@ -231,7 +231,7 @@ DmaJob Acquisition::image_job(std::uint64_t address, bool values, int rows) cons
 
 void Acquisition::expose(std::int64_t frame) {
   const StereoFrame images = frame < input_.frames && input_.expose ? input_.expose(frame) : StereoFrame{};
-  hooks_.exposed(frame, due(), images.left != nullptr);
+  hooks_.exposed(frame, due(), counts_.lost(), images.left != nullptr);
   const std::function<void()> done = when_both([this, frame] {
     hooks_.in_memory(frame);
     frame_complete_.notify();

@@ -33,8 +33,10 @@ class Acquisition final : public sc_core::sc_module {
  public:
   /// Told of each frame, in order.
   struct Hooks {
-    /// `due`: when it would have been exposed without jitter; `values`: it carries images.
-    std::function<void(std::int64_t frame, const sc_core::sc_time& due, bool values)> exposed;
+    /// `due`: when it would have been exposed without jitter; `lost`: triggers before it that found no buffer
+    /// or a sensor reading out; `values`: it carries images.
+    std::function<void(std::int64_t frame, const sc_core::sc_time& due, std::int64_t lost, bool values)>
+        exposed;
     std::function<void(std::int64_t frame)> begun;  ///< the first bytes of an image are in memory
     std::function<void(std::int64_t frame)>
         startable;  ///< as much of both images as the core waits for is there

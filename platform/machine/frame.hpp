@@ -20,6 +20,8 @@ struct StereoFrame {
 struct FrameTimes {
   sc_core::sc_time exposed;          ///< end of exposure, read-out begins
   sc_core::sc_time due;              ///< the same without what jitter added to it
+  std::int64_t lost = 0;             ///< triggers before it that came to no frame, as no buffer was free or a
+                                     ///< sensor reading out
   sc_core::sc_time first_byte;       ///< the first burst of either image in memory
   sc_core::sc_time startable;        ///< as much of both images in memory as the core waits for: all, or
                                      ///< camera.early_start_rows of them

@@ -38,4 +38,33 @@ const std::vector<FrameSpan>& frame_spans() {
   return spans;
 }
 
+void FrameLatencies::begin_anew(std::size_t frame, bool cycles) {
+  steady_first_ = frame;
+  steady_.assign(frame_spans().size(), {});
+  open_.clear();
+  if (cycles) open_.resize(frame_spans().size());
+}
+
+void FrameLatencies::begin_cycle(std::size_t frame) {
+  for (std::size_t i = 0; i < steady_.size(); ++i) steady_[i] += open_[i];
+  open_.assign(frame_spans().size(), {});
+  whole_frames_ = frame - steady_first_;
+  open_frames_ = 0;
+}
+
+void FrameLatencies::add(std::size_t frame, const FrameTimes& times) {
+  if (frame == 0) first_frame_ = times;
+  last_ = frame;
+  if (frame < steady_first_) return;
+  Histograms& histograms = open_.empty() ? steady_ : open_;
+  if (!open_.empty()) ++open_frames_;
+  for (std::size_t i = 0; i < histograms.size(); ++i) histograms[i].add(frame_spans()[i].of(times));
+}
+
+LatencyHistogram FrameLatencies::steady(std::size_t span) const {
+  LatencyHistogram all = steady_[span];
+  if (!open_.empty() && !whole_cycles()) all += open_[span];
+  return all;
+}
+
 }  // namespace parallax

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <string>
 #include <systemc>
 #include <vector>
@@ -25,34 +26,49 @@ struct FrameSpan {
 /// and the last disparity and to the last byte on the wire.
 const std::vector<FrameSpan>& frame_spans();
 
-/// How long these took: the first frame, and the distribution over all frames from a given one on.
+/// How long these took: the first frame, and the distribution over all frames from a given one on, or over
+/// whole cycles of them.
 class FrameLatencies {
  public:
-  /// `steady_first`: number of the first frame whose latencies are those of the steady state.
-  explicit FrameLatencies(std::size_t steady_first)
-      : steady_first_(steady_first), steady_(frame_spans().size()) {}
+  /// `steady_first`: number of the first frame whose latencies are those of the steady state. `most_open`:
+  /// frames of an unfinished cycle, of which more belong to the steady state.
+  FrameLatencies(std::size_t steady_first, std::size_t most_open)
+      : steady_first_(steady_first), most_open_(most_open), steady_(frame_spans().size()) {}
 
-  /// The steady state begins with this frame, later than was thought.
-  void begin_anew(std::size_t frame) {
-    steady_first_ = frame;
-    std::fill(steady_.begin(), steady_.end(), LatencyHistogram());
-  }
+  /// The steady state begins with this frame, later than was thought. `cycles`: it consists of cycles, of
+  /// which this frame begins one.
+  void begin_anew(std::size_t frame, bool cycles);
+  /// This frame begins another cycle; to be called before it is added.
+  void begin_cycle(std::size_t frame);
+  /// Frame `frame` is at the host; in order.
+  void add(std::size_t frame, const FrameTimes& times);
+
   /// Number of the first frame of the steady state.
   std::size_t steady_first() const { return steady_first_; }
-  /// Frame `frame` is at the host; in order.
-  void add(std::size_t frame, const FrameTimes& times) {
-    if (frame == 0) first_ = times;
-    if (frame < steady_first_) return;
-    for (std::size_t i = 0; i < steady_.size(); ++i) steady_[i].add(frame_spans()[i].of(times));
+  /// Whether the steady state is whole cycles: not where the unfinished one is longer than these.
+  bool whole_cycles() const {
+    return whole_frames_ >= std::max<std::size_t>(1, open_frames_) && open_frames_ <= most_open_;
   }
-  const FrameTimes& first_frame() const { return first_; }
+  /// Number of the frame with whose arrival the steady state ends: the last one, or that which begins the
+  /// unfinished cycle.
+  std::size_t steady_end() const { return whole_cycles() ? steady_first_ + whole_frames_ : last_; }
+  /// Numbers of the frames, of which the last one is left out, whose latencies are those of the steady state.
+  std::size_t measured_end() const { return whole_cycles() ? steady_end() : last_ + 1; }
+  const FrameTimes& first_frame() const { return first_frame_; }
   /// By the index of the span.
-  const LatencyHistogram& steady(std::size_t span) const { return steady_[span]; }
+  LatencyHistogram steady(std::size_t span) const;
 
  private:
+  using Histograms = std::vector<LatencyHistogram>;  // by the index of the span
+
   std::size_t steady_first_;
-  FrameTimes first_;
-  std::vector<LatencyHistogram> steady_;
+  const std::size_t most_open_;
+  std::size_t last_ = 0;
+  FrameTimes first_frame_;
+  Histograms steady_;
+  Histograms open_;  // likewise, of the unfinished cycle; empty where there are none
+  std::size_t whole_frames_ = 0;
+  std::size_t open_frames_ = 0;
 };
 
 }  // namespace parallax

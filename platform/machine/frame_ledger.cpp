@@ -11,7 +11,13 @@ namespace {
 
 // Records that are kept beyond the warm-up, at the beginning and at the end of a run: more frames than can be
 // under way, and than a queue usually takes to fill, as the steady state begins with one of them.
-constexpr std::size_t kRecords = 1024;
+constexpr std::size_t kRecords = kMostFrames;
+
+// So many show a trend well enough to tell where it leads to.
+constexpr std::size_t kTold = 100;
+
+// Of cycles of losses: by which share the frame rate may differ when it is not another when printed.
+constexpr double kSameRate = 5e-5;
 
 // By which the phases of two clocks and the memory's refreshes move a latency from frame to frame.
 sc_core::sc_time jitter_of(const MachineConfig& config) {
@@ -27,11 +33,13 @@ sc_core::sc_time jitter_of(const MachineConfig& config) {
 }  // namespace
 
 FrameLedger::FrameLedger(const MachineConfig& config, std::int64_t frames, StepListener listener)
-    : kept_(warm_up_frames(config) + kRecords),
+    : warm_up_(warm_up_frames(config)),
+      kept_(warm_up_ + kRecords),
       listener_(std::move(listener)),
-      latencies_(steady_first(config, frames)),
+      by_chance_(config.camera.jitter_ns != 0),
+      latencies_(steady_first(config, frames), kRecords),
       trend_(steady_first(config, frames), jitter_of(config),
-             config.camera.jitter_ns == 0 ? LatencyTrend::kAlike : LatencyTrend::kByChance) {
+             by_chance_ ? LatencyTrend::kByChance : LatencyTrend::kAlike) {
   times_.keep(kept_);
   snapshots_.keep(kept_);
 }
@@ -40,11 +48,12 @@ void FrameLedger::tell(std::int64_t frame, FrameStep step) const {
   if (listener_) listener_(frame, step);
 }
 
-void FrameLedger::exposed(const sc_core::sc_time& due, bool values) {
+void FrameLedger::exposed(const sc_core::sc_time& due, std::int64_t lost, bool values) {
   values_.push_back(values);
   times_.push_back({});
   times_.back().exposed = sc_core::sc_time_stamp();
   times_.back().due = due;
+  times_.back().lost = lost;
   tell(times_.size() - 1, FrameStep::kExposed);
 }
 
@@ -83,20 +92,52 @@ void FrameLedger::at_host(std::int64_t frame) {
   FrameTimes& times = of(frame);
   times.at_host = sc_core::sc_time_stamp();
   tell(frame, FrameStep::kAtHost);
+  // With the arrival of two frames there is a frame rate again.
+  if (begins_anew_ && frame == *begins_anew_ + 1) begin_anew();
+  const bool losing = follow_losses(frame);
   latencies_.add(frame, times);
-  follow_trend(frame);
+  if (!losing && trend_.add(frame, times.at_host - times.due)) begins_anew_ = frame + 1;
 }
 
-// Two frames after those that had a trend there is a frame rate again.
-void FrameLedger::follow_trend(std::int64_t frame) {
-  if (begins_anew_ && frame == *begins_anew_ + 1) {
-    latencies_.begin_anew(*begins_anew_);
-    for (std::int64_t since = *begins_anew_; since <= frame; ++since) latencies_.add(since, of(since));
-    begins_anew_.reset();
+void FrameLedger::begin_anew() {
+  const std::int64_t first = *begins_anew_;
+  begins_anew_.reset();
+  times_.pin(first);
+  snapshots_.pin(first);
+  latencies_.begin_anew(first, losses_.any());
+  latencies_.add(first, of(first));
+}
+
+// Whether the steady state is one of losses.
+bool FrameLedger::follow_losses(std::int64_t frame) {
+  if (by_chance_ || frame == 0 || static_cast<std::size_t>(frame) < latencies_.steady_first()) return false;
+  if (of(frame).lost == of(frame - 1).lost) return losses_.any();
+  if (losses_.any()) {
+    latencies_.begin_cycle(frame);
+  } else {
+    begins_anew_ = frame;
   }
-  const FrameTimes& times = of(frame);
-  if (trend_.add(frame, times.at_host - times.due) && static_cast<std::size_t>(frame) + 2 < kept_)
-    begins_anew_ = frame + 1;
+  losses_.begin(frame, of(frame));
+  return true;
+}
+
+bool FrameLedger::settled() const {
+  if (losses_.any()) {
+    return losses_.whole() > 1 && latencies_.steady_end() + 1 == snapshots_.size() &&
+           losses_.uncertainty() <= kSameRate;
+  }
+  return trend_.settled() && snapshots_.back().cameras.lost() == times_[latencies_.steady_first()].lost;
+}
+
+bool FrameLedger::out_of_reach() const {
+  const std::size_t frames = snapshots_.size();
+  if (frames < warm_up_ + kTold || trend_.slope() <= 0 || losses_.any()) return false;
+  const FrameTimes& last = times_[frames - 1];
+  const double period = (last.at_host - times_[frames - 1 - LatencyTrend::kBlock].at_host).to_seconds() /
+                        static_cast<double>(LatencyTrend::kBlock);
+  const double full = static_cast<double>(warm_up_) * period;
+  const double more = (full - (last.at_host - last.due).to_seconds()) / trend_.slope();
+  return static_cast<double>(frames) + more > static_cast<double>(kept_);
 }
 
 }  // namespace parallax

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <systemc>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "platform/machine/frame.hpp"
 #include "platform/machine/frame_latencies.hpp"
 #include "platform/machine/latency_trend.hpp"
+#include "platform/machine/loss_cycles.hpp"
 #include "platform/machine/machine_snapshot.hpp"
 #include "tlm/kept_records.hpp"
 #include "traces/trace_event.hpp"
@@ -27,8 +29,9 @@ class FrameLedger {
   /// Of a run of `frames`. `listener` may be empty.
   FrameLedger(const MachineConfig& config, std::int64_t frames, StepListener listener);
 
-  /// The next frame is exposed, now, and would be at `due` without jitter. `values`: it carries images.
-  void exposed(const sc_core::sc_time& due, bool values);
+  /// The next frame is exposed, now, and would be at `due` without jitter. `lost`: triggers before it that
+  /// found no buffer or a sensor reading out. `values`: it carries images.
+  void exposed(const sc_core::sc_time& due, std::int64_t lost, bool values);
   /// The first byte of one of its images is in memory, now; of two calls the first counts.
   void first_byte(std::int64_t frame);
   /// As much of it is in memory, now, as the core waits for.
@@ -53,21 +56,33 @@ class FrameLedger {
   /// Of all frames at the host.
   const FrameLatencies& latencies() const { return latencies_; }
   /// Likewise, from exposure to the host, of exposures without their jitter: the queue's part of it.
+  /// Nothing is added to it after the first frame of the steady state that the cameras lost.
   const LatencyTrend& trend() const { return trend_; }
+  /// In the steady state; none of cameras whose triggers jitter, which lose frames by chance.
+  const LossCycles& losses() const { return losses_; }
+  /// Whether the frames at the host show what more of them would: no trend, and no losses or cycles of them
+  /// that repeat; or a queue that grows so slowly that it would not be full within kMostFrames.
+  bool done() const { return settled() || out_of_reach(); }
   /// The number of records that are kept of the beginning of a run, and of its end.
   std::size_t kept() const { return kept_; }
 
  private:
   FrameTimes& of(std::int64_t frame) { return times_[frame]; }
-  void follow_trend(std::int64_t frame);
+  void begin_anew();
+  bool settled() const;
+  bool out_of_reach() const;
+  bool follow_losses(std::int64_t frame);
   void tell(std::int64_t frame, FrameStep step) const;
 
+  const std::int64_t warm_up_;
   const std::size_t kept_;
   const StepListener listener_;
+  const bool by_chance_;  // triggers jitter
   KeptRecords<FrameTimes> times_;
   KeptRecords<MachineSnapshot> snapshots_;
   FrameLatencies latencies_;
   LatencyTrend trend_;
+  LossCycles losses_;
   std::optional<std::int64_t> begins_anew_;  // frame with which the steady state begins once more
   std::int64_t read_ = 0;                    // frames whose images the core has read
   std::vector<bool> values_;

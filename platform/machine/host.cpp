@@ -52,8 +52,7 @@ void Host::receive(std::int64_t frame, const std::vector<std::uint8_t>& bytes) {
   if (done_) return;  // the simulation goes on, though the run is over
   if (input_.deliver) input_.deliver(result);
   ++frames_;
-  done_ =
-      frames_ == input_.frames || (input_.least_frames > 0 && frames_ >= input_.least_frames && settled_());
+  done_ = frames_ == input_.frames || (input_.least_frames > 0 && frames_ >= input_.least_frames && ended_());
   if (!done_) return;
   input_.finished ? input_.finished() : sc_core::sc_stop();
 }

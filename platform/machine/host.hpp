@@ -23,14 +23,10 @@ namespace parallax {
 /// carry.
 class Host final : public RowListener<Disparity> {
  public:
-  /// `input` and `tiles` must outlive the object. `settled` says, after input.least_frames, whether the run
+  /// `input` and `tiles` must outlive the object. `ended` says, after input.least_frames, whether the run
   /// can end.
-  Host(const MachineInput& input, const TilePlan& tiles, OutputLeft left, std::function<bool()> settled)
-      : input_(input),
-        tiles_(tiles),
-        left_(left),
-        settled_(std::move(settled)),
-        disparity_rows_(tiles.width) {}
+  Host(const MachineInput& input, const TilePlan& tiles, OutputLeft left, std::function<bool()> ended)
+      : input_(input), tiles_(tiles), left_(left), ended_(std::move(ended)), disparity_rows_(tiles.width) {}
 
   /// The pipeline's next row of disparities, `tiles.width` px: of a frame, tile by tile, row by row.
   void expect(const Disparity* row);
@@ -52,7 +48,7 @@ class Host final : public RowListener<Disparity> {
   const MachineInput& input_;
   const TilePlan& tiles_;
   const OutputLeft left_;
-  const std::function<bool()> settled_;
+  const std::function<bool()> ended_;
   RowCollector<Disparity> disparity_rows_;
   std::deque<std::vector<Disparity>> expected_;  // frames that have left the pipeline and are not here
   std::vector<Disparity> leaving_;               // of the frame that is leaving it

@@ -25,10 +25,17 @@ bool LatencyTrend::add(std::size_t frame, const sc_core::sc_time& latency) {
   known_ = known_ || block_.size() >= looks_.least;
   if (block_.size() < looks_.block) return false;
   rising_ = has_trend();
-  last_slope_ = rising_ ? slope_of(block_) : 0;
-  keep_mean();
+  if (rising_) last_slope_ = slope_of(block_);
+  calm_ = rising_ ? 0 : calm_ + 1;
+  // The first block without a trend may begin with the end of it.
+  const bool anew = calm_ < kCalm;
+  if (anew) {
+    forget_means();
+  } else {
+    keep_mean();
+  }
   block_.clear();
-  return rising_;
+  return anew;
 }
 
 bool LatencyTrend::has_trend() const {
@@ -39,14 +46,14 @@ bool LatencyTrend::has_trend() const {
   return std::abs(block_.back().to_seconds() - block_.front().to_seconds()) > least;
 }
 
+void LatencyTrend::forget_means() {
+  means_.clear();
+  blocks_a_mean_ = 1;
+  sum_ = 0;
+  summed_ = 0;
+}
+
 void LatencyTrend::keep_mean() {
-  if (rising_) {
-    means_.clear();
-    blocks_a_mean_ = 1;
-    sum_ = 0;
-    summed_ = 0;
-    return;
-  }
   for (const sc_core::sc_time& latency : block_)
     sum_ += latency.to_seconds() / static_cast<double>(looks_.block);
   if (++summed_ < blocks_a_mean_) return;
@@ -80,7 +87,7 @@ double LatencyTrend::drift() const {
 
 double LatencyTrend::slope() const {
   if (last_settled()) return drift();
-  return block_.size() < looks_.least ? last_slope_ : slope_of(block_);
+  return block_.size() < looks_.least || !has_trend() ? last_slope_ : slope_of(block_);
 }
 
 }  // namespace parallax

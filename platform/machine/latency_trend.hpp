@@ -23,6 +23,8 @@ class LatencyTrend {
   static constexpr Looks kAlike{kBlock, 3};
   /// Where chance moves each latency: three would rise one time in three, twelve do once in 10^8 times.
   static constexpr Looks kByChance{12, 12};
+  /// Blocks without a trend after one that had one, before it is over: a queue may fill in steps.
+  static constexpr std::size_t kCalm = 2;
   /// What is less is none: a share of the latency.
   static constexpr double kShare = 1e-4;
   /// Likewise between two halves of all blocks.
@@ -33,7 +35,7 @@ class LatencyTrend {
       : first_(first), tolerance_(tolerance), looks_(looks) {}
 
   /// Frame `frame` took so long; in order, from `first` on. True when the block that ends with it has a
-  /// trend: the steady state begins after it at the earliest.
+  /// trend, or is the first one after it: the steady state begins after it at the earliest.
   bool add(std::size_t frame, const sc_core::sc_time& latency);
   /// The last frames, as many as it takes, show none, nor do all since the last block that had one.
   bool settled() const { return last_settled() && drift() == 0; }
@@ -45,7 +47,10 @@ class LatencyTrend {
 
  private:
   bool has_trend() const;
-  bool last_settled() const { return block_.size() < looks_.least ? known_ && !rising_ : !has_trend(); }
+  bool last_settled() const {
+    return calm_ >= kCalm && (block_.size() < looks_.least ? known_ : !has_trend());
+  }
+  void forget_means();
   void keep_mean();
   double drift() const;  // from half to half, s a frame; 0 where it is noise
 
@@ -54,7 +59,8 @@ class LatencyTrend {
   Looks looks_;
   std::vector<sc_core::sc_time> block_;
   bool known_ = false;
-  bool rising_ = false;  // the last whole block had a trend
+  bool rising_ = false;       // the last whole block had a trend
+  std::size_t calm_ = kCalm;  // blocks since one had a trend; many where none did
   double last_slope_ = 0;
   std::vector<double> means_;      // s, of the blocks since one had a trend
   std::size_t blocks_a_mean_ = 1;  // doubled when there are many

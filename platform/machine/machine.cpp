@@ -58,7 +58,7 @@ Machine::Machine(const sc_core::sc_module_name& name, const MachineConfig& confi
                 [this](std::int64_t frame, std::uint64_t address) {
                   transmission_.send(frame, address, ledger_.has_values(frame));
                 }),
-      host_(input_, tiles_, config_.link.output_left(), [this] { return settled(); }),
+      host_(input_, tiles_, config_.link.output_left(), [this] { return ledger_.done(); }),
       ports_(collect_ports()) {
   core_.pipeline().keep_frames(ledger_.kept());
   for (const MemoryPort* port : ports_) {
@@ -73,8 +73,8 @@ Machine::Machine(const sc_core::sc_module_name& name, const MachineConfig& confi
 
 Acquisition::Hooks Machine::acquisition_hooks() {
   Acquisition::Hooks hooks;
-  hooks.exposed = [this](std::int64_t, const sc_core::sc_time& due, bool values) {
-    ledger_.exposed(due, values);
+  hooks.exposed = [this](std::int64_t, const sc_core::sc_time& due, std::int64_t lost, bool values) {
+    ledger_.exposed(due, lost, values);
   };
   hooks.begun = [this](std::int64_t frame) { ledger_.first_byte(frame); };
   hooks.startable = [this](std::int64_t frame) {
@@ -106,15 +106,12 @@ StereoCore::Hooks Machine::core_hooks() {
   return hooks;
 }
 
-// Cameras that find no buffer for a frame, or are not ready for it, do so in a rhythm of many frames.
-bool Machine::settled() const {
-  const CameraCounts& cameras = snapshots().back().cameras;
-  return trend().settled() && cameras.dropped == 0 && cameras.missed == 0;
-}
-
 void Machine::received(std::int64_t frame, const std::vector<std::uint8_t>& bytes) {
+  const std::size_t before = latencies().steady_first();
   ledger_.at_host(frame);
   ledger_.add(snapshot());
+  if (const std::size_t first = latencies().steady_first(); first != before)
+    core_.pipeline().pin_frame(first);
   software_.output_buffer_free();
   host_.receive(frame, bytes);
 }

@@ -17,6 +17,9 @@ struct CameraCounts {
   std::int64_t dropped = 0;  ///< frames that found none
   std::int64_t missed = 0;   ///< triggers that found a sensor reading out
   std::int64_t faulty = 0;   ///< frames that a camera fault spoilt
+
+  /// Triggers that came to no frame.
+  std::int64_t lost() const { return dropped + missed; }
 };
 
 /// What has passed a memory port until a date.

@@ -279,6 +279,10 @@ void Pipeline::keep_frames(std::size_t frames) {
   for (const StageInfo& info : stages()) const_cast<Stage*>(info.stage)->keep_frames(frames * info.passes);
 }
 
+void Pipeline::pin_frame(std::size_t frame) {
+  for (const StageInfo& info : stages()) const_cast<Stage*>(info.stage)->pin_frame(frame * info.passes);
+}
+
 std::vector<StageInfo> Pipeline::stages() const {
   std::vector<StageInfo> all;
   for (const auto& slot : wiring_.slots()) {

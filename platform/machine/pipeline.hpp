@@ -39,6 +39,8 @@ class Pipeline final : public sc_core::sc_module {
 
   /// Of every stage, the dates of the first and the last `frames` frames are kept; see Stage::keep_frames().
   void keep_frames(std::size_t frames);
+  /// Likewise those of the first pass over frame `frame`; see Stage::pin_frame().
+  void pin_frame(std::size_t frame);
 
   /// For the next frame with values; each is told, in order.
   void configure(const AlgorithmParameters& parameters);

@@ -44,25 +44,25 @@ RunLength run_length(const MachineConfig& config, std::int64_t input_frames,
   if (asked) return {at_least_input(*asked), at_least_input(*asked)};
   const std::int64_t warm_up = warm_up_frames(config);
   const std::int64_t few = at_least_input(warm_up + kMeasuredFrames);
-  if (config.camera.frame_rate == 0 && config.camera.fault == CameraFault::kNone) return {few, few};
+  if (config.camera.jitter_ns == 0 && config.camera.fault == CameraFault::kNone)
+    return {few, at_least_input(warm_up + kMostFrames)};
   // Of faulty frames, whole rounds.
   const std::int64_t round = config.camera.fault == CameraFault::kNone
                                  ? 1
                                  : std::max<std::int64_t>(1, std::int64_t{config.camera.fault_every} - 1);
   const std::int64_t many = at_least_input(warm_up + 1 + (kManyFrames + round - 1) / round * round);
-  const bool alike = config.camera.jitter_ns == 0 && config.camera.fault == CameraFault::kNone;
-  return {alike ? few : many, many};
+  return {many, many};
 }
 
 SteadyWindow steady_window(const Machine& machine) {
   const KeptRecords<MachineSnapshot>& snapshots = machine.snapshots();
   SteadyWindow window;
-  window.last = snapshots.size() - 1;
-  if (window.last == 0) {
+  if (snapshots.size() == 1) {
     window.text = "frame 1";
     return window;
   }
   window.first = machine.latencies().steady_first();
+  window.last = machine.latencies().steady_end();
   window.seconds = (snapshots[window.last].time - snapshots[window.first].time).to_seconds();
   if (paced_with_jitter(machine, window))
     window.seconds = (machine.times()[window.last].due - machine.times()[window.first].due).to_seconds();

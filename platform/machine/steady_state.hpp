@@ -20,6 +20,9 @@ std::int64_t warm_up_frames(const MachineConfig& config);
 /// warm-up, of its last but one.
 std::size_t steady_first(const MachineConfig& config, std::int64_t frames);
 
+/// After so many frames beyond the warm-up a run ends, steady or not, unless it was asked for more.
+constexpr std::int64_t kMostFrames = 1024;
+
 /// How many frames a run simulates.
 struct RunLength {
   std::int64_t least = 1;
@@ -27,8 +30,8 @@ struct RunLength {
 };
 
 /// All frames of the input, and at least `asked`; if nothing is asked, so many that two frame periods lie
-/// after the warm-up. Where triggers jitter or frames have faults, a hundred and more; at most so many where
-/// cameras have a rate of their own, of which a machine that keeps up with it needs few.
+/// after the warm-up, and on until more frames would show nothing new (FrameLedger::done), within
+/// kMostFrames. Where triggers jitter or frames have faults, a hundred and more.
 RunLength run_length(const MachineConfig& config, std::int64_t input_frames,
                      std::optional<std::int64_t> asked);
 
@@ -46,8 +49,9 @@ struct SteadyWindow {
   double divisor() const { return frames() == 0 ? 1.0 : static_cast<double>(frames()); }
 };
 
-/// All frames of a run after the warm-up, and after those whose latency had a trend (LatencyTrend); where the
-/// run is shorter than the warm-up, its last two. The host must have a frame.
+/// All frames of a run after the warm-up, and after those whose latency had a trend (LatencyTrend); of
+/// cameras that lose frames, whole cycles of that (LossCycles). Where the run is shorter than the warm-up,
+/// its last two. The host must have a frame.
 ///
 /// Its frames take the time between the arrivals that begin and end it. Cameras whose triggers jitter move
 /// both: where every frame of theirs comes through and none waits longer than the one before, the frames take

@@ -16,6 +16,7 @@ namespace {
 
 constexpr double kClosePace = 1e-3;      // of the frame period
 constexpr double kHardlyKeepsUp = 0.98;  // likewise
+constexpr double kSure = 1e-3;           // of the frame rate
 // Where triggers jitter, a queue that is hardly kept up with grows and shrinks by chance, over hundreds of
 // frames.
 constexpr std::size_t kManyByChance = 2000;
@@ -31,11 +32,12 @@ void add_performance(const MetricWriter& out, const Machine& machine, const Stea
 void add_latency(const MetricWriter& out, const Machine& machine, const SteadyWindow& window) {
   const FrameLatencies& latencies = machine.latencies();
   // Of the frame whose arrival begins the window, too.
-  const std::string frames =
-      window.frames() == 0 ? window.text : fmt::format("frames {} to {}", window.first + 1, window.last + 1);
+  const std::string frames = window.frames() == 0
+                                 ? window.text
+                                 : fmt::format("frames {} to {}", window.first + 1, latencies.measured_end());
   for (std::size_t i = 0; i < frame_spans().size(); ++i) {
     const FrameSpan& span = frame_spans()[i];
-    const LatencyHistogram& steady = latencies.steady(i);
+    const LatencyHistogram steady = latencies.steady(i);
     const MetricWriter of_span = out.of(span.name, span.description).over(frames);
     const auto add = [&](const char* path, const sc_core::sc_time& time) {
       of_span.add(path, time.to_seconds() * 1e3);
@@ -130,7 +132,15 @@ bool rate_is_by_chance(const Machine& machine, const SteadyWindow& window) {
   return 2 * std::sqrt(lost) > 0.01 * static_cast<double>(window.frames());
 }
 
+// By which share the rate of many more frames may differ, where cameras lose some: over a part of a cycle, by
+// one frame.
+double uncertainty_of_losses(const Machine& machine, const SteadyWindow& window) {
+  return machine.latencies().whole_cycles() ? machine.losses().uncertainty()
+                                            : 1.0 / static_cast<double>(window.frames());
+}
+
 std::string established(const Machine& machine, const SteadyWindow& window) {
+  if (machine.losses().any()) return uncertainty_of_losses(machine, window) <= kSure ? "yes" : "unknown";
   const LatencyTrend& trend = machine.trend();
   if (!trend.known()) return "unknown";
   if (!trend.settled()) return "no";
@@ -143,9 +153,15 @@ std::string established(const Machine& machine, const SteadyWindow& window) {
 
 void add_steady(const MetricWriter& out, const Machine& machine, const SteadyWindow& window) {
   if (window.frames() == 0) return;
-  const LatencyTrend& trend = machine.trend();
   out.add("steady/frames", static_cast<std::int64_t>(window.frames() + 1));
   out.add("steady/established", established(machine, window));
+  if (machine.losses().any()) {
+    out.add("steady/loss_cycles",
+            static_cast<std::int64_t>(machine.latencies().whole_cycles() ? machine.losses().whole() : 0));
+    out.add("steady/latency_trend", 0.0);
+    return;
+  }
+  const LatencyTrend& trend = machine.trend();
   out.add("steady/latency_trend", trend.slope() * 1e3);
   if (trend.slope() <= 0) return;
   const double full = latency_when_full(machine, window, find_limit(part_loads(machine, window)));
@@ -165,7 +181,7 @@ const MetricTable& rate_table() {
       {"steady/frames", "frames",
        "Frames of the steady state: those after the warm-up (as many as there are buffers), and after those "
        "whose "
-       "latency had a trend.",
+       "latency had a trend; of cameras that lose frames without jitter, whole cycles of that.",
        kSteadyState},
       {"steady/established", "",
        "yes: the latency of the last frames, from exposure to the host, has no trend. no: each frame waits "
@@ -176,7 +192,13 @@ const MetricTable& rate_table() {
        "warm-up (twelve where triggers jitter); or so few that parts of nearly the same pace, between which "
        "a queue may fill for hundreds "
        "of frames, do not show it; or frames are lost by chance, as triggers jitter, and the rate of another "
-       "such run may differ by a percent.",
+       "such run may differ by a percent; or the cameras lose frames, and the rate of more cycles of that "
+       "may differ by more than 0.1 %.",
+       kSteadyState},
+      {"steady/loss_cycles", "",
+       "Where the cameras lose frames and their triggers do not jitter: whole cycles of that, from the first "
+       "frame after a lost one to another such; 0 where "
+       "the run is too short for one, or holds an unfinished one that is longer.",
        kSteadyState},
       {"steady/latency_trend", "ms", "By how much the latency grows from frame to frame; 0 without a trend.",
        kSteadyState},
@@ -188,9 +210,8 @@ const MetricTable& rate_table() {
       {"steady/frames_until_full", "frames", "With a rising trend: about as many frames later.",
        kSteadyState},
       {"steady/drops_when_full", "frames/s",
-       "With a rising trend, of cameras with a camera.frame_rate: what they send and nothing will take when "
-       "no "
-       "buffer is free any more.",
+       "With a rising trend, of cameras with a camera.frame_rate: what they send beyond what the machine "
+       "takes, so the least that is dropped when no buffer is free any more.",
        kSteadyState},
       {"performance/frame_rate", "frames/s",
        "Rate at which the host receives frames, or, where the link is off, at which their results are in "
@@ -242,6 +263,14 @@ const MetricTable& rate_table() {
        "by + where they gain only together.",
        kRelaxed},
       {"limit/relaxed_frame_rate", "frames/s", "The frame rate without that limit.", kRelaxed},
+      {"limit/all_fifos_frame_rate", "frames/s",
+       "Where a single FIFO is named and deeper ones gain more: the frame rate with all of them deeper.",
+       kRelaxed},
+      {"limit/faster_clock_frame_rate", "frames/s",
+       "Where what is named costs the core cycles of its own: the frame rate with twice the core's clock, "
+       "which "
+       "shortens these too.",
+       kRelaxed},
       {"limit/relaxed_part", "", "The part that limits then.", kRelaxed},
   };
   return table;

@@ -147,7 +147,7 @@ std::string trend_line(const MetricGroup& m) {
                       " until all buffers are full, to some {steady/latency_when_full} in about "
                       "{steady/frames_until_full} (--timing-frames)");
     if (m.find("steady/drops_when_full") != nullptr)
-      line += filled_in(m, "; then {steady/drops_when_full} are dropped");
+      line += filled_in(m, "; then at least {steady/drops_when_full} are dropped");
   }
   return line + "\n";
 }

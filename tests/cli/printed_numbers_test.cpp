@@ -69,8 +69,8 @@ const std::vector<PrintedLine>& lines_of_a_run() {
          "{latency/exposure_to_host_mean} from exposure to {=end} (mean), first frame "
          "{latency/exposure_to_host_first_frame}",
          "it is not steady, but grows by {steady/latency_trend} a frame until all buffers are full, to some "
-         "{steady/latency_when_full} in about {steady/frames_until_full} (--timing-frames); then "
-         "{steady/drops_when_full} are dropped",
+         "{steady/latency_when_full} in about {steady/frames_until_full} (--timing-frames); then at "
+         "least {steady/drops_when_full} are dropped",
          "it is not steady, but grows by {steady/latency_trend} a frame until all buffers are full, to some "
          "{steady/latency_when_full} in about {steady/frames_until_full} (--timing-frames)",
          "it is not steady, but grows by {steady/latency_trend} a frame",
@@ -128,15 +128,20 @@ const std::vector<PrintedLine>& verdicts() {
     std::vector<PrintedLine> patterns;
     for (const char* remedy :
          {"<remedy...>", "a depth of <tokens..>", "8 times as many bursts under way", "a link of 1 Tbit/s"}) {
-      const std::string end = fmt::format("; {} give<s...> {{limit/relaxed_frame_rate}}, <then...>", remedy);
-      const std::string though =
-          " limits, though <part...> is at work for {limit/utilisation} of the time" + end;
-      patterns.emplace_back("<part...> limits at {limit/utilisation}" + end);
-      patterns.emplace_back("<parts...> limit together" + end);
-      patterns.emplace_back("FIFO <fifo> with its depth of {streams/<fifo>/depth#tokens}" + though);
-      patterns.emplace_back("FIFO <fifo> with its depth of {streams/<fifo>/depth#tokens} limits" + end);
-      patterns.emplace_back("<part...>" + though);
-      patterns.emplace_back("<part...> limits" + end);
+      const std::string give = fmt::format("; {} give<s...> {{limit/relaxed_frame_rate}}, <then...>", remedy);
+      const std::string fifos = "; all FIFOs deeper give {limit/all_fifos_frame_rate}";
+      const std::string clock =
+          "; doubling the core's clock gives {limit/faster_clock_frame_rate}, as it shortens these waits too";
+      for (const std::string& end : {give, give + fifos, give + clock, give + fifos + clock}) {
+        const std::string though =
+            " limit<s...>, though <part...> is at work for {limit/utilisation} of the time" + end;
+        patterns.emplace_back("<part...> limits at {limit/utilisation}" + end);
+        patterns.emplace_back("<parts...> limit together" + end);
+        patterns.emplace_back("FIFO <fifo> with its depth of {streams/<fifo>/depth#tokens}" + though);
+        patterns.emplace_back("FIFO <fifo> with its depth of {streams/<fifo>/depth#tokens} limits" + end);
+        patterns.emplace_back("<part...>" + though);
+        patterns.emplace_back("<part...> limit<s...>" + end);
+      }
     }
     patterns.emplace_back("nothing limits alone, and nothing that was tried gains anything together");
     return patterns;
@@ -221,11 +226,12 @@ INSTANTIATE_TEST_SUITE_P(
                 "camera.frame_rate=400",
                 "frames dropped (no buffer free)"},
         Machine{"CamerasALittleTooFast",
-                "--timing-only --size 64x48 --set link.host_pixel_rate=1e6 --set camera.frame_rate=326",
+                "--timing-only --size 64x48 --timing-frames 103 --set link.host_pixel_rate=1e6 --set "
+                "camera.frame_rate=326",
                 "are dropped"},
         Machine{"ALatencyThatGrows",
-                "--timing-only --size 320x240 --set link.host_pixel_rate=0 --set link.line_rate=10e9 --set "
-                "clocks.camera_hz=39e6",
+                "--timing-only --size 320x240 --timing-frames 11 --set link.host_pixel_rate=0 --set "
+                "link.line_rate=10e9 --set clocks.camera_hz=39e6",
                 "it is not steady, but grows by"},
         Machine{"ARateHardlyKeptUpWith",
                 "--timing-only --size 64x48 --set link.host_pixel_rate=1e6 --set camera.frame_rate=324 --set "

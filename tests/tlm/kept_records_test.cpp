@@ -29,5 +29,17 @@ TEST(KeptRecords, KeepsTheFirstAndTheLast) {
   EXPECT_EQ(records[99], 7);
 }
 
+TEST(KeptRecords, KeepsTheOneThatIsPinned) {
+  KeptRecords<int> records;
+  records.keep(3);
+  for (int i = 0; i < 100; ++i) {
+    records.push_back(i);
+    if (i == 40 || i == 51) records.pin(50 - (i == 40 ? 10 : 0));
+  }
+  EXPECT_EQ(records[50], 50);
+  EXPECT_THROW(records[40], std::out_of_range);
+  EXPECT_THROW(records.pin(60), std::out_of_range);
+}
+
 }  // namespace kept_records_test
 }  // namespace parallax::test
