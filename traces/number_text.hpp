@@ -9,9 +9,10 @@ namespace parallax {
 /// A number for a reader: the one rule of rounding, for whatever the program prints. It has the decimals that
 /// are usual for its unit (of a percentage or MB/s 1, of frames/s or W 2, of ms or px 3, of what is counted
 /// 1; none where that, or pixels, are whole). It has more where it would be left with fewer than three digits
-/// from the first that is not 0, or where a share below 100 % would read 100, and fewer where it would have
-/// more than seven digits. So "0.0" is nothing at all, and "100.0" all. Below 0.0001 and from 10^12 on it has
-/// a power of ten; of something a second ("1/s") it is in thousands, millions or billions.
+/// from the first that is not 0 and these are not all there is (0.1 frames/s are "0.10"), or where a share
+/// below 100 % would read 100, and fewer where it would have more than seven digits. So "0.0" is nothing at
+/// all, and "100.0" all. Below 0.0001 and from 10^12 on it has a power of ten; of something a second ("1/s")
+/// it is in thousands, millions or billions.
 std::string number_text(double value, std::string_view unit);
 
 /// The same of a change, with its sign: "+4.69", and "0.0" where nothing changes.

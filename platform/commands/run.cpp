@@ -62,8 +62,9 @@ class Run {
     }
     RunFrames writer(images_, folder_.get(), frame_options(), configuration_.machine.matching.range().last());
     Simulation simulation(length_.most, interrupted_);
-    progress_ = std::make_unique<Progress>(context_.err, shows_progress(context_), "frames", length_.most,
+    progress_ = std::make_unique<Progress>(context_.err, shows_progress(context_), "frames", length_.least,
                                            notes_.sink());
+    progress_->may_go_on_to(length_.most);
     // Before this process simulates.
     if (options_.verdict || options_.report)
       trials_.emplace(options_.configuration, timing_input(), context_, interruption_);

@@ -109,6 +109,11 @@ std::vector<Relaxation> relaxations(const MachineConfig& config, const MetricGro
       clock(Relief::kCoreClock, "core", config.clocks.core_hz),
       memory_clock(config),
       clock(Relief::kCameraClock, "camera", config.clocks.camera_hz)};
+  if (!config.timing.overlap_frames) {
+    all.push_back(one(Relief::kFrameGap, "the next frame enters while the last one drains",
+                      "letting the next frame in while the last one drains",
+                      {"pipeline.overlap_frames=true"}));
+  }
   if (config.timing.matching.interval > 1 || config.matching.recurrence_latency > 1) {
     all.push_back(one(Relief::kMatchingInterval, "one iteration a cycle, pixel after pixel",
                       "a matcher without interval or recurrence",

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <numeric>
 
 namespace parallax {
@@ -39,11 +38,15 @@ bool LatencyTrend::add(std::size_t frame, const sc_core::sc_time& latency) {
 }
 
 bool LatencyTrend::has_trend() const {
-  const bool one_way = std::is_sorted(block_.begin(), block_.end()) ||
-                       std::is_sorted(block_.begin(), block_.end(), std::greater<>());
-  if (!one_way) return false;
+  const double change = block_.back().to_seconds() - block_.front().to_seconds();
   const double least = std::max(kShare * block_.back().to_seconds(), tolerance_.to_seconds());
-  return std::abs(block_.back().to_seconds() - block_.front().to_seconds()) > least;
+  if (std::abs(change) <= least) return false;
+  double back = 0;
+  for (std::size_t i = 1; i < block_.size(); ++i) {
+    const double step = block_[i].to_seconds() - block_[i - 1].to_seconds();
+    if (step * change < 0) back += std::abs(step);
+  }
+  return back <= looks_.back * std::abs(change);
 }
 
 void LatencyTrend::forget_means() {

@@ -9,9 +9,9 @@ namespace parallax {
 
 /// Whether the latency of successive frames has a trend: while a queue between two parts of nearly the same
 /// pace fills, each frame waits longer than the one before, for hundreds of frames. It has one where block
-/// after block of frames it only rises, or only falls, by more than `tolerance` each. What remains after that
-/// (phases of clocks, of the refresh, jitter) goes up and down; of four blocks and more it has a trend, too,
-/// where their later half takes longer than the earlier one by more than such noise explains.
+/// after block of frames it rises all but steadily, or falls, by more than `tolerance` each. What remains
+/// after that (phases of clocks, of the refresh, jitter) goes up and down; of four blocks and more it has a
+/// trend, too, where their later half takes longer than the earlier one by more than such noise explains.
 class LatencyTrend {
  public:
   static constexpr std::size_t kBlock = 8;
@@ -19,10 +19,12 @@ class LatencyTrend {
   struct Looks {
     std::size_t block;  ///< frames that are looked at together
     std::size_t least;  ///< of a block that is not whole yet: fewer say nothing
+    double back;        ///< what may go the other way, as a share of the change
   };
-  static constexpr Looks kAlike{kBlock, 3};
+  /// Where a trend ends within a block, what follows goes up and down a little.
+  static constexpr Looks kAlike{kBlock, 3, 0.1};
   /// Where chance moves each latency: three would rise one time in three, twelve do once in 10^8 times.
-  static constexpr Looks kByChance{12, 12};
+  static constexpr Looks kByChance{12, 12, 0};
   /// Blocks without a trend after one that had one, before it is over: a queue may fill in steps.
   static constexpr std::size_t kCalm = 2;
   /// What is less is none: a share of the latency.

@@ -23,6 +23,8 @@ const char* name_of(Relief relief) {
       return "memory_clock";
     case Relief::kCameraClock:
       return "camera_clock";
+    case Relief::kFrameGap:
+      return "frame_gap";
     case Relief::kMatchingInterval:
       return "matching_interval";
     case Relief::kBufferPort:

@@ -21,6 +21,7 @@ enum class Relief {
   kCoreClock,
   kMemoryClock,
   kCameraClock,
+  kFrameGap,          ///< between frames, while a stage empties its look-ahead
   kMatchingInterval,  ///< of the matcher, and its recurrence
   kBufferPort,        ///< width of the port to what the matcher keeps in memory
   kPathStorage,       ///< path costs in memory

@@ -43,6 +43,10 @@ Progress::~Progress() {
 
 void Progress::advance(std::int64_t count, Clock::time_point now) {
   if (done_ == 0) first_done_ = now;
+  if (done_ == total_ && total_ < most_) {
+    total_ = most_;
+    what_ += " at most";
+  }
   done_ += count;
   const std::chrono::duration<double> since_first = now - first_done_;
   if (now - start_ >= kEstimate && done_ > count)  // the first one may have taken another time

@@ -22,6 +22,8 @@ class Progress {
   using Note = std::function<void(const std::string& line)>;
 
   Progress(std::ostream& out, bool shown, std::string what, std::int64_t total, Note note = {});
+  /// Once `total` are done there may be more, at most so many.
+  void may_go_on_to(std::int64_t most) { most_ = most; }
   ~Progress();  ///< wipes the line, so that what follows starts on an empty one
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
@@ -42,6 +44,7 @@ class Progress {
   bool shown_;
   std::string what_;
   std::int64_t total_;
+  std::int64_t most_ = 0;
   Note note_;  ///< empty when it has been told, or is not to be
   std::int64_t done_ = 0;
   Clock::time_point first_done_{};

@@ -81,6 +81,8 @@ class PartLines {
   explicit PartLines(const MetricGroup& m) : m_(m), limit_(m.word_or("limit/part", "none")) {}
 
   std::string text() {
+    for (const MetricGroup& stage : m_.group_at("stages").groups)
+      name_columns_ = std::max(name_columns_, stage.name.size());
     std::string lines =
         "time                # busy, e upstream empty, f downstream full, m memory, s synchroniser, . "
         "blanking; %: at work\n";
@@ -97,7 +99,7 @@ class PartLines {
 
   std::string line(const std::string& part, const std::string& letters, const Metric& share) {
     if (part == limit_) limit_shown_ = true;
-    return fmt::format("  {:<17} {} {:>8}{}\n", part, letters, metric_text(share),
+    return fmt::format("  {:<{}} {} {:>8}{}\n", part, name_columns_, letters, metric_text(share),
                        part == limit_ ? "  limits" : "");
   }
 
@@ -120,6 +122,7 @@ class PartLines {
   const MetricGroup& m_;
   const std::string limit_;
   bool limit_shown_ = false;
+  std::size_t name_columns_ = 17;
 };
 
 std::string quality_lines(const MetricGroup& m) {

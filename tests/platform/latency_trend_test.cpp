@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <random>
 #include <vector>
@@ -42,6 +43,21 @@ TEST(LatencyTrend, AQueueThatFillsHasOneUntilItIsFull) {
   for (std::size_t frame = 40; frame < 56; ++frame) trend.add(frame, us(5720));
   EXPECT_TRUE(trend.settled());
   EXPECT_EQ(trend.slope(), 0);
+}
+
+// A queue that is full within a block, after which the phases of clocks remain.
+TEST(LatencyTrend, ABlockInWhichItEndsHasOne) {
+  for (std::size_t rising = 1; rising < LatencyTrend::kBlock; ++rising) {
+    LatencyTrend trend(0, us(0.1));
+    std::size_t begins = 0;
+    for (std::size_t frame = 0; frame < 40; ++frame) {
+      const auto full = static_cast<double>(std::min(frame, rising));
+      const double phase = frame % 2 == 0 ? 0.04 : 0;
+      if (trend.add(frame, us(5000 + 300 * full + phase))) begins = frame + 1;
+    }
+    EXPECT_EQ(begins, 2 * LatencyTrend::kBlock) << rising;
+    EXPECT_TRUE(trend.settled()) << rising;
+  }
 }
 
 TEST(LatencyTrend, AQueueThatEmptiesHasOne) {

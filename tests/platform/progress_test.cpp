@@ -50,6 +50,18 @@ TEST(Progress, DrawsAtMostTenTimesASecondAndWipesTheLine) {
   EXPECT_EQ(text.substr(text.size() - 4), "\r\033[K");
 }
 
+TEST(Progress, SaysWhenThereMayBeMore) {
+  std::ostringstream out;
+  const auto start = Progress::Clock::now();
+  Progress progress(out, true, "frames", 3);
+  progress.may_go_on_to(20);
+  for (int i = 1; i <= 3; ++i) progress.advance(1, start + seconds(i));
+  EXPECT_NE(out.str().find("3/3 frames"), std::string::npos) << out.str();
+  EXPECT_EQ(out.str().find("at most"), std::string::npos) << out.str();
+  progress.advance(1, start + seconds(4));
+  EXPECT_NE(out.str().find("4/20 frames at most, 16 s left"), std::string::npos) << out.str();
+}
+
 TEST(Progress, SaysOnceHowManyMinutesAreToGo) {
   std::ostringstream out;
   std::vector<std::string> notes;
