@@ -30,6 +30,7 @@
 #include "platform/results/deadlock_report.hpp"
 #include "platform/results/peak_memory.hpp"
 #include "platform/results/progress.hpp"
+#include "platform/results/rate_metrics.hpp"
 #include "platform/results/run_metrics.hpp"
 #include "platform/tracing/run_profile.hpp"
 #include "platform/tracing/tracing.hpp"
@@ -109,6 +110,7 @@ class Run {
     input.map = &images_.map();
     input.frames = length_.most;
     input.least_frames = length_.least;
+    input.enough = frames_are_enough;
     input.timing_only = options_.timing_only;
     input.expose = [this, &simulation](std::int64_t frame) {
       const bool has_images = !options_.timing_only && frame < images_.frames();

@@ -14,6 +14,7 @@
 #include "platform/machine/steady_state.hpp"
 #include "platform/results/deadlock_report.hpp"
 #include "platform/results/peak_memory.hpp"
+#include "platform/results/rate_metrics.hpp"
 #include "platform/results/run_metrics.hpp"
 #include "tlm/error.hpp"
 
@@ -36,6 +37,7 @@ EvaluationResult simulate(const MachineConfig& config, const EvaluationInput& in
   const RunLength length = run_length(config, input.frames, input.timing_frames);
   machine_input.frames = length.most;
   machine_input.least_frames = length.least;
+  machine_input.enough = frames_are_enough;
   machine_input.timing_only = true;
   const Machine machine("machine", config, machine_input);
   shortest_frame_time(machine);

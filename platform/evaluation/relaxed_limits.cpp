@@ -40,6 +40,17 @@ Json entry_of(const RelaxedLimit& limit) {
   return entry;
 }
 
+// Those taken away alone, and what is named where that is none of them: several together.
+std::vector<const RelaxedLimit*> rows_of(const RelaxedLimits& limits) {
+  std::vector<const RelaxedLimit*> rows;
+  for (const RelaxedLimit& limit : limits.alone) rows.push_back(&limit);
+  const bool listed = std::any_of(rows.begin(), rows.end(), [&](const RelaxedLimit* row) {
+    return row->relaxation.name == limits.limit_name();
+  });
+  if (limits.limit && !listed) rows.push_back(&*limits.limit);
+  return rows;
+}
+
 }  // namespace
 
 RelaxedLimit relaxed_limit(const EvaluationResult& base, const Relaxation& relaxation,
@@ -59,9 +70,7 @@ RelaxedLimit relaxed_limit(const EvaluationResult& base, const Relaxation& relax
 }
 
 std::string to_text(const RelaxedLimits& limits) {
-  std::vector<const RelaxedLimit*> rows;
-  for (const RelaxedLimit& limit : limits.alone) rows.push_back(&limit);
-  if (limits.limit && limits.limit->relaxation.limits.size() > 1) rows.push_back(&*limits.limit);
+  const std::vector<const RelaxedLimit*> rows = rows_of(limits);
   std::size_t width = 20;
   for (const RelaxedLimit* row : rows) width = std::max(width, row->relaxation.name.size() + 2);
   std::string lines =
@@ -83,9 +92,7 @@ Json to_json(const RelaxedLimits& limits) {
   tree["limit"] = limits.limit_name();
   add_rates(tree["base"], limits.frame_rate, limits.latency);
   tree["relaxations"] = Json::array();
-  for (const RelaxedLimit& limit : limits.alone) tree["relaxations"].push_back(entry_of(limit));
-  if (limits.limit && limits.limit->relaxation.limits.size() > 1)
-    tree["relaxations"].push_back(entry_of(*limits.limit));
+  for (const RelaxedLimit* row : rows_of(limits)) tree["relaxations"].push_back(entry_of(*row));
   return tree;
 }
 

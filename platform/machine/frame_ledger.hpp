@@ -60,17 +60,16 @@ class FrameLedger {
   const LatencyTrend& trend() const { return trend_; }
   /// In the steady state; none of cameras whose triggers jitter, which lose frames by chance.
   const LossCycles& losses() const { return losses_; }
-  /// Whether the frames at the host show what more of them would: no trend, and no losses or cycles of them
-  /// that repeat; or a queue that grows so slowly that it would not be full within kMostFrames.
-  bool done() const { return settled() || out_of_reach(); }
+  /// Whether the frames at the host show no trend, and no losses, or cycles of them that repeat.
+  bool settled() const;
+  /// Whether a queue grows so slowly that it would not be full within kMostFrames.
+  bool out_of_reach() const;
   /// The number of records that are kept of the beginning of a run, and of its end.
   std::size_t kept() const { return kept_; }
 
  private:
   FrameTimes& of(std::int64_t frame) { return times_[frame]; }
   void begin_anew();
-  bool settled() const;
-  bool out_of_reach() const;
   bool follow_losses(std::int64_t frame);
   void tell(std::int64_t frame, FrameStep step) const;
 

@@ -85,6 +85,7 @@ class Machine final : public sc_core::sc_module {
   std::vector<MemoryPort*> collect_ports();
   std::vector<Part> collect_parts() const;
   MachineSnapshot snapshot();
+  bool done() const;
 
   const MachineConfig config_;
   const MachineInput input_;

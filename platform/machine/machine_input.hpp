@@ -16,13 +16,18 @@
 
 namespace parallax {
 
+class Machine;
+
 /// What a run of the machine is made of, apart from its configuration.
 struct MachineInput {
   int width = 0;   ///< px, of the images as they are processed
   int height = 0;  ///< px
   const EncodedMap* map = nullptr;
-  std::int64_t frames = 1;         ///< of the run
-  std::int64_t least_frames = 0;   ///< after so many it may end when it is steady; 0: after `frames`
+  std::int64_t frames = 1;        ///< of the run
+  std::int64_t least_frames = 0;  ///< after so many it may end when it is steady; 0: after `frames`
+  /// Asked, if there is one, with each frame from then on, whether a machine that seems steady may be taken
+  /// for that.
+  std::function<bool(const Machine& machine)> enough;
   StageReplacements replacements;  ///< what stands in the place of stages of the pipeline
   bool timing_only = false;        ///< no frame has images, so the memory need not hold any
   /// Called, if there is one, with the socket of each memory port, to bind it: another memory in the place of

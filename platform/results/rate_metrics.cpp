@@ -139,15 +139,19 @@ double uncertainty_of_losses(const Machine& machine, const SteadyWindow& window)
                                             : 1.0 / static_cast<double>(window.frames());
 }
 
+// Whether a queue may fill so slowly that the frames do not show it.
+bool too_few(const Machine& machine, const SteadyWindow& window) {
+  const std::size_t enough =
+      machine.config().camera.jitter_ns == 0 ? 2 * LatencyTrend::kBlock : kManyByChance;
+  return window.frames() < enough && paces_are_close(part_loads(machine, window), machine.trend());
+}
+
 std::string established(const Machine& machine, const SteadyWindow& window) {
   if (machine.losses().any()) return uncertainty_of_losses(machine, window) <= kSure ? "yes" : "unknown";
   const LatencyTrend& trend = machine.trend();
   if (!trend.known()) return "unknown";
   if (!trend.settled()) return "no";
-  const std::size_t enough =
-      machine.config().camera.jitter_ns == 0 ? 2 * LatencyTrend::kBlock : kManyByChance;
-  const bool few = window.frames() < enough;
-  if (few && paces_are_close(part_loads(machine, window), trend)) return "unknown";
+  if (too_few(machine, window)) return "unknown";
   return rate_is_by_chance(machine, window) ? "unknown" : "yes";
 }
 
@@ -174,6 +178,11 @@ void add_steady(const MetricWriter& out, const Machine& machine, const SteadyWin
 }
 
 }  // namespace
+
+bool frames_are_enough(const Machine& machine) {
+  const SteadyWindow window = steady_window(machine);
+  return machine.losses().any() || window.frames() == 0 || !too_few(machine, window);
+}
 
 const MetricTable& rate_table() {
   constexpr const char* kRelaxed = "a run of the machine without that limit";

@@ -10,6 +10,10 @@ namespace parallax {
 /// How many frames a second, how long a frame takes, and what limits: "performance", "latency", "limit".
 void add_rates(MetricGroup& root, const Machine& machine, const SteadyWindow& window);
 
+/// Whether its frames show whether it is steady (MachineInput::enough): more are needed where parts have
+/// nearly the same pace, so that a queue between them may fill for long.
+bool frames_are_enough(const Machine& machine);
+
 /// These, and what a run without the limit adds to "limit".
 const MetricTable& rate_table();
 

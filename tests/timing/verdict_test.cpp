@@ -211,6 +211,8 @@ TEST(Verdict, NamesTheDefaultDepthWhereManyFifosHaveIt) {
   ASSERT_TRUE(verdict.limits.limit);
   EXPECT_EQ(verdict.limits.limit->relaxation.assignments,
             std::vector<std::string>{"streams.default_depth=2"});
+  EXPECT_NE(to_text(verdict.limits).find("\nfifos_default_depth "), std::string::npos)
+      << to_text(verdict.limits);
 }
 
 TEST(Verdict, NamesSoftwareWhereTheCoreWaitsForIt) {
