@@ -44,6 +44,8 @@ using WallClock = std::chrono::steady_clock;
 // Trials may take four times as long as the run itself, and a minute in any case.
 constexpr std::chrono::seconds kLeastForTrials{60};
 constexpr int kTrialsForRun = 4;
+// Of trials that take longer a note says why.
+constexpr std::chrono::seconds kUntold{10};
 
 // One run, from the options to the exit code.
 class Run {
@@ -170,6 +172,7 @@ class Run {
   bool judge(MetricGroup& metrics) {
     const EvaluationResult base = measured(metrics);
     if (base.rate == 0) return true;
+    const WallClock::time_point began = WallClock::now();
     // A page says what all limits gain, whatever time that takes.
     if (!options_.report) {
       const WallClock::time_point now = WallClock::now();
@@ -177,7 +180,11 @@ class Run {
     }
     const Verdict verdict = find_verdict(
         configuration_.machine, base, options_.report ? Thoroughness::kAll : Thoroughness::kUntilCertain,
-        [this](const std::vector<Relaxation>& relaxations) { return trials_->try_out(relaxations); });
+        [&](const std::vector<Relaxation>& relaxations) {
+          if (WallClock::now() - began > kUntold)
+            notes_("finding out what limits takes more runs of the machine; --no-verdict leaves them out");
+          return trials_->try_out(relaxations);
+        });
     if (interrupted_()) return false;
     if (options_.report) folder_->write("relaxations.json", json_text(to_json(verdict.limits), 2) + "\n");
     add_verdict(metrics, verdict);

@@ -53,7 +53,11 @@ void AloneSearch::run(const std::vector<Relaxation>& own, const std::vector<Rela
 // Tries these sets; those of one alone are found, the others are open.
 void AloneSearch::branch(const std::vector<std::vector<Relaxation>>& sets) {
   std::vector<Relaxation> tried;
-  for (const std::vector<Relaxation>& set : sets) tried.push_back(together(set));
+  for (const std::vector<Relaxation>& set : sets) {
+    std::vector<Relaxation> all = besides_;
+    all.insert(all.end(), set.begin(), set.end());
+    tried.push_back(together(all));
+  }
   std::vector<RelaxedLimit> measured;
   try {
     measured = trials_.measure(tried);

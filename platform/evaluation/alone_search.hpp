@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <utility>
 #include <vector>
 
 #include "platform/evaluation/trials.hpp"
@@ -20,7 +21,9 @@ class AloneSearch {
   /// Hears of each that was tried alone.
   using Found = std::function<void(const RelaxedLimit&)>;
 
-  AloneSearch(Trials& trials, Found found) : trials_(trials), found_(std::move(found)) {}
+  /// `besides`: taken away in any case, so that of the others the best one besides these is found.
+  AloneSearch(Trials& trials, Found found, std::vector<Relaxation> besides = {})
+      : trials_(trials), found_(std::move(found)), besides_(std::move(besides)) {}
 
   /// `own` are tried alone in any case. Throws TrialsEnded.
   void run(const std::vector<Relaxation>& own, const std::vector<Relaxation>& others);
@@ -36,6 +39,7 @@ class AloneSearch {
 
   Trials& trials_;
   const Found found_;
+  const std::vector<Relaxation> besides_;
   std::vector<Node> open_;
   double best_ = 0;  // gain of one alone, %
 };

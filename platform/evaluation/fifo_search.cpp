@@ -26,10 +26,12 @@ std::optional<RelaxedLimit> with_derived_depth(const Trials& trials, const std::
   return limit;
 }
 
-std::int64_t depth_of(const Relaxation& fifo) {
-  const std::string& assignment = fifo.assignments.front();
+// Of "streams.a.depth=16".
+std::int64_t depth_in(const std::string& assignment) {
   return std::stoll(assignment.substr(assignment.find('=') + 1));
 }
+
+std::int64_t depth_of(const Relaxation& fifo) { return depth_in(fifo.assignments.front()); }
 
 std::optional<RelaxedLimit> first_of(Trials& trials, const Set& fifos, std::size_t first_part,
                                      double enough) {
@@ -94,13 +96,39 @@ RelaxedLimit shallowest(Trials& trials, const MachineConfig& config, const Relax
   return derived && depth_of(derived->relaxation) < depth_of(least.relaxation) ? *derived : least;
 }
 
+// All of them with so many times their depths, then each alone with less, as long as that is enough.
 RelaxedLimit shallowest_of_several(Trials& trials, const RelaxedLimit& deep, double enough) {
-  const auto with = [&](std::int64_t times) {
-    return fifos_relaxation(trials.base().metrics, deep.relaxation.fifos, times);
+  const MetricGroup& metrics = trials.base().metrics;
+  const std::vector<std::string>& streams = deep.relaxation.fifos;
+  std::vector<std::int64_t> depths;
+  for (const std::string& stream : streams) depths.push_back(metrics.count("streams/" + stream + "/depth"));
+  const auto times = [&](std::int64_t factor) {
+    std::vector<std::int64_t> tokens;
+    for (const std::int64_t depth : depths) tokens.push_back(std::min(factor * depth, deep_enough(depth)));
+    return tokens;
   };
-  std::vector<std::int64_t> all;
-  for (std::int64_t times = 2; times <= kMostTimes; times *= 2) all.push_back(times);
-  return least_depth(trials, all, with, enough).value_or(deep);
+  std::vector<std::int64_t> factors;
+  for (std::int64_t factor = 2; factor <= kMostTimes; factor *= 2) factors.push_back(factor);
+  std::optional<RelaxedLimit> least = least_depth(
+      trials, factors, [&](std::int64_t factor) { return fifos_relaxation(metrics, streams, times(factor)); },
+      enough);
+  if (!least) return deep;
+  std::vector<std::int64_t> tokens;
+  for (const std::string& assignment : least->relaxation.assignments) tokens.push_back(depth_in(assignment));
+  for (std::size_t i = 0; i < streams.size(); ++i) {
+    std::vector<std::int64_t> fewer;
+    for (std::int64_t depth = depths[i]; depth < tokens[i]; depth *= 2) fewer.push_back(depth);
+    const auto with = [&](std::int64_t depth) {
+      std::vector<std::int64_t> changed = tokens;
+      changed[i] = depth;
+      return fifos_relaxation(metrics, streams, changed);
+    };
+    const std::optional<RelaxedLimit> shallower = least_depth(trials, fewer, with, enough);
+    if (!shallower) continue;
+    tokens[i] = depth_in(shallower->relaxation.assignments[i]);
+    least = shallower;
+  }
+  return *least;
 }
 
 std::optional<RelaxedLimit> least_default_depth(Trials& trials, const MachineConfig& config, const Set& fifos,

@@ -28,10 +28,6 @@ Relaxation clock(Relief limit, const char* name, std::int64_t hertz) {
              {fmt::format("clocks.{}_hz={}", name, std::min(2 * hertz, kFastestClock))});
 }
 
-std::int64_t deeper(std::int64_t depth) {
-  return std::max(depth, std::min(kDeeper * depth + 1024, kDeepest));
-}
-
 std::string depth_of(const std::string& stream, std::int64_t tokens) {
   return fmt::format("streams.{}.depth={}", stream, tokens);
 }
@@ -42,7 +38,7 @@ std::vector<std::string> deeper_fifos(const MetricGroup& metrics) {
   for (const std::string& name : pipeline_stream_names()) {
     const Metric* const metric = metrics.find("streams/" + name + "/depth");
     if (metric == nullptr) continue;  // a machine without it
-    assignments.push_back(depth_of(name, deeper(metric->count())));
+    assignments.push_back(depth_of(name, deep_enough(metric->count())));
   }
   return assignments;
 }
@@ -128,8 +124,13 @@ std::vector<Relaxation> relaxations(const MachineConfig& config, const MetricGro
     all.push_back(
         one(Relief::kPathStorage, "on chip", "path costs on chip", {"matching.path_storage=on_chip"}));
   }
-  if (config.software.response_ns > 0 || config.software.register_ns > 0 || !config.software.queue_frames) {
-    all.push_back(one(Relief::kSoftware, "no time between frames, which queue", "software that takes no time",
+  const bool takes_time = config.software.response_ns > 0 || config.software.register_ns > 0;
+  if (takes_time || !config.software.queue_frames) {
+    const char* const remedy = !takes_time ? "software that queues frames"
+                               : config.software.queue_frames
+                                   ? "software that takes no time"
+                                   : "software that takes no time and queues frames";
+    all.push_back(one(Relief::kSoftware, "no time between frames, which queue", remedy,
                       {"software.response_ns=0", "software.register_ns=0", "software.queue_frames=true"}));
   }
   if (config.link.enabled) {
@@ -142,13 +143,17 @@ std::vector<Relaxation> relaxations(const MachineConfig& config, const MetricGro
   return all;
 }
 
+std::int64_t deep_enough(std::int64_t depth) {
+  return std::max(depth, std::min(kDeeper * depth + 1024, kDeepest));
+}
+
 std::vector<Relaxation> fifo_relaxations(const MetricGroup& metrics, bool full) {
   std::vector<std::pair<double, Relaxation>> found;
   for (const std::string& stream : pipeline_stream_names()) {
     const MetricGroup* const group = metrics.find_group("streams/" + stream);
     if (group == nullptr || (full && group->number("full") == 0)) continue;
     found.emplace_back(group->number("full"),
-                       fifo_relaxation(metrics, stream, deeper(group->count("depth"))));
+                       fifo_relaxation(metrics, stream, deep_enough(group->count("depth"))));
   }
   std::stable_sort(found.begin(), found.end(),
                    [](const auto& a, const auto& b) { return a.first > b.first; });
@@ -169,17 +174,14 @@ Relaxation fifo_relaxation(const MetricGroup& metrics, const std::string& stream
 }
 
 Relaxation fifos_relaxation(const MetricGroup& metrics, const std::vector<std::string>& streams,
-                            std::int64_t times) {
+                            const std::vector<std::int64_t>& tokens) {
   constexpr std::size_t kMostInWords = 3;
   std::vector<Relaxation> each;
-  for (const std::string& stream : streams) {
-    const std::int64_t depth = metrics.count("streams/" + stream + "/depth");
-    each.push_back(fifo_relaxation(metrics, stream, std::min(times * depth, deeper(depth))));
-  }
+  for (std::size_t i = 0; i < streams.size(); ++i)
+    each.push_back(fifo_relaxation(metrics, streams[i], tokens[i]));
   Relaxation all = together(each);
-  if (streams.size() <= kMostInWords) return all;
-  all.subject = fmt::format("FIFOs {}", fmt::join(streams, ", "));
-  all.remedy = fmt::format("{} times their depths", times);
+  if (streams.size() > kMostInWords) all.subject = fmt::format("FIFOs {}", fmt::join(streams, ", "));
+  all.remedy = fmt::format("depths of {}", fmt::join(tokens, ", "));
   return all;
 }
 
@@ -206,7 +208,7 @@ std::vector<std::int64_t> fifo_depths(const MachineConfig& config, const MetricG
                                       const std::string& stream) {
   const std::int64_t depth = metrics.count("streams/" + stream + "/depth");
   std::vector<std::int64_t> depths;
-  for (std::int64_t tokens = 2 * depth; tokens < deeper(depth); tokens *= 2) depths.push_back(tokens);
+  for (std::int64_t tokens = 2 * depth; tokens < deep_enough(depth); tokens *= 2) depths.push_back(tokens);
   const auto configured = std::find_if(config.streams.depths.begin(), config.streams.depths.end(),
                                        [&](const StreamDepth& d) { return d.name == stream; });
   if (configured->tokens != 0) depths.push_back(0);

@@ -36,9 +36,12 @@ std::vector<Relaxation> relaxations(const MachineConfig& config, const MetricGro
 /// unless others hand more to it. `full`: those only that are at times.
 std::vector<Relaxation> fifo_relaxations(const MetricGroup& metrics, bool full);
 
-/// Several FIFOs, each with so many times its tokens, at most what fifo_relaxations() gives it.
+/// Several FIFOs, each with so many tokens in place of those that it has. The two lists have one length.
 Relaxation fifos_relaxation(const MetricGroup& metrics, const std::vector<std::string>& streams,
-                            std::int64_t times);
+                            const std::vector<std::int64_t>& tokens);
+
+/// The depth of a FIFO of `depth` tokens that fifo_relaxations() tries.
+std::int64_t deep_enough(std::int64_t depth);
 
 /// The FIFO of this stream with so many tokens in place of those that it has; 0: as many as the model
 /// derives.

@@ -114,6 +114,7 @@ class Search {
     }
     if (limits_.alone.empty() || !limits_.alone.front().gains()) {
       limits_.limit = fewest(all_, kLeastTogether);
+      if (limits_.limit && limits_.limit->relaxation.limits.size() == 2) name_best_pair();
       return;
     }
     limits_.limit = limits_.alone.front();
@@ -121,9 +122,29 @@ class Search {
     if (limits_.limit->relaxation.is(Relief::kFifos)) name_fifos(RelaxedLimit(*limits_.limit), thoroughness);
   }
 
+  // Of two that gain together, either may gain more with a third: where cameras have the core's pace, a
+  // faster core gains a little, and software that takes no time much.
+  void name_best_pair() {
+    const std::vector<Relief> pair = limits_.limit->relaxation.limits;
+    for (const Relief of_pair : pair) {
+      const auto one =
+          std::find_if(all_.begin(), all_.end(), [&](const Relaxation& r) { return r.is(of_pair); });
+      std::vector<Relaxation> others;
+      std::copy_if(all_.begin(), all_.end(), std::back_inserter(others),
+                   [&](const Relaxation& other) { return !other.is(of_pair); });
+      AloneSearch(trials_,
+                  [&](const RelaxedLimit& limit) {
+                    if (limit.measured && limit.gain > limits_.limit->gain + RelaxedLimit::kNoise)
+                      limits_.limit = limit;
+                  },
+                  {*one})
+          .run({}, others);
+    }
+  }
+
   // A faster clock shortens every cycle of the core, those in which it waits for a FIFO or a buffer, too: all
   // gains by it are in proportion. Where what a limit costs is a part of the core's own cycles, that limit is
-  // named.
+  // named; not the gap between frames, which is a stage's own work.
   void look_behind_the_clock() {
     const RelaxedLimit clock = *limits_.limit;
     const double outside = 1 - 2 * share_of(clock);  // of a frame's time, as half of the rest went
@@ -132,7 +153,7 @@ class Search {
     };
     std::vector<Relaxation> others;
     std::copy_if(all_.begin(), all_.end(), std::back_inserter(others), [this](const Relaxation& relaxation) {
-      return !is_clock(relaxation) &&
+      return !is_clock(relaxation) && !relaxation.is(Relief::kFrameGap) &&
              (!relieves_the_busiest(relaxation, trials_.base()) || relaxation.is(Relief::kSoftware));
     });
     if (others.empty() || !inside(trials_.measure(together(others)))) return;

@@ -13,9 +13,6 @@ namespace {
 // under way, and than a queue usually takes to fill, as the steady state begins with one of them.
 constexpr std::size_t kRecords = kMostFrames;
 
-// So many show a trend well enough to tell where it leads to.
-constexpr std::size_t kTold = 100;
-
 // Of cycles of losses: by which share the frame rate may differ when it is not another when printed.
 constexpr double kSameRate = 5e-5;
 
@@ -33,8 +30,7 @@ sc_core::sc_time jitter_of(const MachineConfig& config) {
 }  // namespace
 
 FrameLedger::FrameLedger(const MachineConfig& config, std::int64_t frames, StepListener listener)
-    : warm_up_(warm_up_frames(config)),
-      kept_(warm_up_ + kRecords),
+    : kept_(warm_up_frames(config) + kRecords),
       listener_(std::move(listener)),
       by_chance_(config.camera.jitter_ns != 0),
       latencies_(steady_first(config, frames), kRecords),
@@ -127,17 +123,6 @@ bool FrameLedger::settled() const {
            losses_.uncertainty() <= kSameRate;
   }
   return trend_.settled() && snapshots_.back().cameras.lost() == times_[latencies_.steady_first()].lost;
-}
-
-bool FrameLedger::out_of_reach() const {
-  const std::size_t frames = snapshots_.size();
-  if (frames < warm_up_ + kTold || trend_.slope() <= 0 || losses_.any()) return false;
-  const FrameTimes& last = times_[frames - 1];
-  const double period = (last.at_host - times_[frames - 1 - LatencyTrend::kBlock].at_host).to_seconds() /
-                        static_cast<double>(LatencyTrend::kBlock);
-  const double full = static_cast<double>(warm_up_) * period;
-  const double more = (full - (last.at_host - last.due).to_seconds()) / trend_.slope();
-  return static_cast<double>(frames) + more > static_cast<double>(kept_);
 }
 
 }  // namespace parallax

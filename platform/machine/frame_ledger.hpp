@@ -62,8 +62,6 @@ class FrameLedger {
   const LossCycles& losses() const { return losses_; }
   /// Whether the frames at the host show no trend, and no losses, or cycles of them that repeat.
   bool settled() const;
-  /// Whether a queue grows so slowly that it would not be full within kMostFrames.
-  bool out_of_reach() const;
   /// The number of records that are kept of the beginning of a run, and of its end.
   std::size_t kept() const { return kept_; }
 
@@ -73,7 +71,6 @@ class FrameLedger {
   bool follow_losses(std::int64_t frame);
   void tell(std::int64_t frame, FrameStep step) const;
 
-  const std::int64_t warm_up_;
   const std::size_t kept_;
   const StepListener listener_;
   const bool by_chance_;  // triggers jitter

@@ -58,7 +58,8 @@ Machine::Machine(const sc_core::sc_module_name& name, const MachineConfig& confi
                 [this](std::int64_t frame, std::uint64_t address) {
                   transmission_.send(frame, address, ledger_.has_values(frame));
                 }),
-      host_(input_, tiles_, config_.link.output_left(), [this] { return done(); }),
+      host_(input_, tiles_, config_.link.output_left(),
+            [this] { return input_.enough ? input_.enough(*this) : settled(); }),
       ports_(collect_ports()) {
   core_.pipeline().keep_frames(ledger_.kept());
   for (const MemoryPort* port : ports_) {
@@ -104,11 +105,6 @@ StereoCore::Hooks Machine::core_hooks() {
     software_.core_ended(frame);
   };
   return hooks;
-}
-
-bool Machine::done() const {
-  if (ledger_.out_of_reach()) return true;
-  return ledger_.settled() && (!input_.enough || input_.enough(*this));
 }
 
 void Machine::received(std::int64_t frame, const std::vector<std::uint8_t>& bytes) {

@@ -51,6 +51,7 @@ class Machine final : public sc_core::sc_module {
   const FrameLatencies& latencies() const { return ledger_.latencies(); }
   const LatencyTrend& trend() const { return ledger_.trend(); }
   const LossCycles& losses() const { return ledger_.losses(); }
+  bool settled() const { return ledger_.settled(); }
   const Pipeline& pipeline() const { return core_.pipeline(); }
   const Dataflow& dataflow() const { return dataflow_; }
   /// None when the run brought another memory along.
@@ -85,7 +86,6 @@ class Machine final : public sc_core::sc_module {
   std::vector<MemoryPort*> collect_ports();
   std::vector<Part> collect_parts() const;
   MachineSnapshot snapshot();
-  bool done() const;
 
   const MachineConfig config_;
   const MachineInput input_;

@@ -25,8 +25,8 @@ struct MachineInput {
   const EncodedMap* map = nullptr;
   std::int64_t frames = 1;        ///< of the run
   std::int64_t least_frames = 0;  ///< after so many it may end when it is steady; 0: after `frames`
-  /// Asked, if there is one, with each frame from then on, whether a machine that seems steady may be taken
-  /// for that.
+  /// Asked, if there is one, with each frame from then on, whether more would show nothing new; if there is
+  /// none, they are enough when Machine::settled().
   std::function<bool(const Machine& machine)> enough;
   StageReplacements replacements;  ///< what stands in the place of stages of the pipeline
   bool timing_only = false;        ///< no frame has images, so the memory need not hold any

@@ -49,6 +49,7 @@ StereoCore::StereoCore(const sc_core::sc_module_name& name, const MachineConfig&
       clock_(clock),
       format_(config.camera.format),
       queue_frames_(config.software.queue_frames),
+      software_waits_(config.software.response_ns > 0),
       output_left_(config.link.output_left()),
       dma_left_("dma_left", engine_config(config.dma.left), clock),
       dma_right_("dma_right", engine_config(config.dma.right), clock),

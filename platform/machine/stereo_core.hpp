@@ -108,6 +108,7 @@ class StereoCore final : public sc_core::sc_module {
   const ClockDomain& clock_;
   const PixelFormat format_;
   const bool queue_frames_;
+  const bool software_waits_;  // between a frame that could be started and the start
   const OutputLeft output_left_;
   DmaReader dma_left_;
   DmaReader dma_right_;

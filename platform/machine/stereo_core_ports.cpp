@@ -78,10 +78,11 @@ void StereoCore::find_stages() {
 std::vector<Part> StereoCore::parts() const {
   std::vector<Part> parts;
   if (!queue_frames_) {
-    parts.push_back({PartKind::kCore,
-                     "core",
-                     "clocks.core_hz, software.response_ns",
-                     {Relief::kCoreClock, Relief::kSoftware, Relief::kMatchingInterval}});
+    parts.push_back(
+        {PartKind::kCore,
+         "core",
+         software_waits_ ? "clocks.core_hz, software.response_ns" : "clocks.core_hz, software.queue_frames",
+         {Relief::kCoreClock, Relief::kSoftware, Relief::kMatchingInterval}});
   }
   const std::vector<MemoryPort*> buffer = store_ports();
   for (const StageInfo& info : pipeline_.stages()) {

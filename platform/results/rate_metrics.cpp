@@ -17,6 +17,8 @@ namespace {
 constexpr double kClosePace = 1e-3;      // of the frame period
 constexpr double kHardlyKeepsUp = 0.98;  // likewise
 constexpr double kSure = 1e-3;           // of the frame rate
+// So many frames after the warm-up show a trend well enough to tell where it leads to.
+constexpr std::size_t kTold = 100;
 // Where triggers jitter, a queue that is hardly kept up with grows and shrinks by chance, over hundreds of
 // frames.
 constexpr std::size_t kManyByChance = 2000;
@@ -88,6 +90,19 @@ double latency_when_full(const Machine& machine, const SteadyWindow& window, con
   const double buffers = config.camera.frame_buffers + config.link.output_buffers;
   return buffers * window.period() - (last.read - last.core_started).to_seconds() -
          nanoseconds(config.software.response_ns).to_seconds() - exposure;
+}
+
+// What a rising trend leads to.
+struct Full {
+  double latency;  // s
+  double frames;   // from the last one on
+};
+
+Full until_full(const Machine& machine, const SteadyWindow& window) {
+  const double full = latency_when_full(machine, window, find_limit(part_loads(machine, window)));
+  const FrameTimes& last = machine.times()[window.last];
+  const double more = std::max(0.0, full - (last.at_host - last.exposed).to_seconds());
+  return {full, std::ceil(more / machine.trend().slope())};
 }
 
 // Good frames a second of cameras with a rate of their own; 0 of others.
@@ -168,11 +183,9 @@ void add_steady(const MetricWriter& out, const Machine& machine, const SteadyWin
   const LatencyTrend& trend = machine.trend();
   out.add("steady/latency_trend", trend.slope() * 1e3);
   if (trend.slope() <= 0) return;
-  const double full = latency_when_full(machine, window, find_limit(part_loads(machine, window)));
-  const FrameTimes& last = machine.times()[window.last];
-  const double more = std::max(0.0, full - (last.at_host - last.exposed).to_seconds());
-  out.add("steady/latency_when_full", full * 1e3);
-  out.add("steady/frames_until_full", static_cast<std::int64_t>(std::ceil(more / trend.slope())));
+  const Full full = until_full(machine, window);
+  out.add("steady/latency_when_full", full.latency * 1e3);
+  out.add("steady/frames_until_full", static_cast<std::int64_t>(full.frames));
   if (const double drops = sent_rate(machine.config().camera) - 1 / window.period(); drops > 0)
     out.add("steady/drops_when_full", drops);
 }
@@ -180,8 +193,15 @@ void add_steady(const MetricWriter& out, const Machine& machine, const SteadyWin
 }  // namespace
 
 bool frames_are_enough(const Machine& machine) {
+  if (machine.losses().any()) return machine.settled();
   const SteadyWindow window = steady_window(machine);
-  return machine.losses().any() || window.frames() == 0 || !too_few(machine, window);
+  if (window.frames() == 0) return machine.settled();
+  if (machine.settled()) return !too_few(machine, window);
+  const std::size_t frames = machine.snapshots().size();
+  const std::int64_t warm_up = warm_up_frames(machine.config());
+  if (frames < warm_up + kTold || machine.trend().slope() <= 0) return false;
+  return static_cast<double>(frames) + until_full(machine, window).frames >
+         static_cast<double>(warm_up + kMostFrames);
 }
 
 const MetricTable& rate_table() {

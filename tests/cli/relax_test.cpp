@@ -141,7 +141,7 @@ TEST_F(Verdict, LooksOnWhereTheBusiestPartGainsNothing) {
   EXPECT_EQ(none["part"]["value"], "none");
   EXPECT_EQ(none["relaxation"]["value"], "software");
   EXPECT_EQ(none["verdict"]["value"].get<std::string>().rfind(
-                "software limits; software that takes no time gives ", 0),
+                "software limits; software that takes no time and queues frames gives ", 0),
             0u);
 }
 

@@ -408,6 +408,19 @@ TEST(LossRates, AreThoseOfWholeCycles) {
   }
 }
 
+// A queue that is full within a thousand frames is waited for, one that fills for longer is not.
+TEST_F(Limits, ARunGoesOnUntilTheQueueIsFull) {
+  const std::string machine = "--size 64x48 --timing-only --set link.host_pixel_rate=1e6 ";
+  const nlohmann::json waited = run(machine + "--set camera.frame_rate=330");
+  EXPECT_EQ(waited["steady"]["established"]["value"], "yes");
+  EXPECT_GT(waited["camera"]["dropped_frames"]["value"], 0);
+  EXPECT_GT(waited["input"]["frames"]["value"], 130);
+  const nlohmann::json given_up = run(machine + "--set camera.frame_rate=325.6");
+  EXPECT_EQ(given_up["steady"]["established"]["value"], "no");
+  EXPECT_LT(given_up["input"]["frames"]["value"], 130);
+  EXPECT_GT(given_up["steady"]["frames_until_full"]["value"], 1000);
+}
+
 TEST_F(Limits, CamerasThatTheMachineKeepsUpWithNeedFewFrames) {
   const std::string size = "--size 64x48 --timing-only --set camera.frame_rate=30 ";
   const nlohmann::json few = run(size);

@@ -218,7 +218,8 @@ TEST(Verdict, NamesTheDefaultDepthWhereManyFifosHaveIt) {
 TEST(Verdict, NamesSoftwareWhereTheCoreWaitsForIt) {
   Subject subject(64, 48, small({"software.response_ns=1000000", "software.queue_frames=false"}));
   const Verdict verdict = subject.verdict(Thoroughness::kAll);
-  EXPECT_EQ(verdict.sentence.rfind("software limits; software that takes no time gives ", 0), 0U)
+  EXPECT_EQ(
+      verdict.sentence.rfind("software limits; software that takes no time and queues frames gives ", 0), 0U)
       << verdict.sentence;
 }
 
@@ -231,7 +232,43 @@ TEST(Verdict, NamesTwoFifosThatHoldTogether) {
               name == "fifo_costs_uniqueness+fifo_costs_consistency")
       << name << '\n'
       << verdict.sentence;
-  EXPECT_NE(verdict.sentence.find(" limit together"), std::string::npos) << verdict.sentence;
+  EXPECT_NE(verdict.sentence.find(" limit together; depths of "), std::string::npos) << verdict.sentence;
+  // Neither could have half of its tokens.
+  ASSERT_EQ(verdict.limits.limit->relaxation.assignments.size(), 2U);
+  for (std::size_t i = 0; i < 2; ++i) {
+    std::vector<std::string> fewer{"streams.costs_uniqueness.depth=2", "streams.costs_consistency.depth=2"};
+    const std::vector<std::string>& named = verdict.limits.limit->relaxation.assignments;
+    const std::string key = named[i].substr(0, named[i].find('=') + 1);
+    fewer.push_back(key + std::to_string(std::stoi(named[i].substr(key.size())) / 2));
+    fewer.push_back(named[1 - i]);
+    EXPECT_LT(Subject(64, 48, small(fewer)).base().rate, 0.999 * verdict.limits.limit->frame_rate) << key;
+  }
+}
+
+// Where software has no time of its own, the queue of frames is what it lacks.
+TEST(Verdict, NamesTheQueueThatSoftwareLacks) {
+  Subject subject(
+      64, 48,
+      exactly({"software.response_ns=0", "software.register_ns=0", "link.host_pixel_rate=0",
+               "link.line_rate=10000000000", "matching.iterations=1", "clocks.core_hz=20000000"}));
+  const Verdict verdict = subject.verdict(Thoroughness::kAll);
+  EXPECT_EQ(verdict.sentence.find("takes no time"), std::string::npos) << verdict.sentence;
+  for (const RelaxedLimit& limit : verdict.limits.alone) {
+    if (!limit.relaxation.is(Relief::kSoftware)) continue;
+    EXPECT_TRUE(limit.gains());
+    EXPECT_EQ(limit.relaxation.remedy, "software that queues frames");
+  }
+}
+
+// At the core's pace, which software's time is a part of: with other cameras a faster core gains some
+// percent, and software that takes none several times as much.
+TEST(Verdict, NamesTheTwoThatGainMostTogether) {
+  const double alone = Subject(64, 48, exactly({})).base().rate;
+  Subject subject(64, 48, exactly({fmt::format("camera.frame_rate={:.2f}", alone)}));
+  const Verdict verdict = subject.verdict(Thoroughness::kUntilCertain);
+  EXPECT_EQ(verdict.limits.limit_name(), "camera+software") << verdict.sentence;
+  ASSERT_TRUE(verdict.limits.limit);
+  EXPECT_GT(verdict.limits.limit->gain, 100) << verdict.sentence;
 }
 
 TEST(Verdict, NamesTwoLimitsThatAreEqual) {
