@@ -144,7 +144,8 @@ class Search {
 
   // A faster clock shortens every cycle of the core, those in which it waits for a FIFO or a buffer, too: all
   // gains by it are in proportion. Where what a limit costs is a part of the core's own cycles, that limit is
-  // named; not the gap between frames, which is a stage's own work.
+  // named; not what lies between frames, a stage's look-ahead and a core that is started with one after the
+  // other.
   void look_behind_the_clock() {
     const RelaxedLimit clock = *limits_.limit;
     const double outside = 1 - 2 * share_of(clock);  // of a frame's time, as half of the rest went
@@ -154,7 +155,7 @@ class Search {
     std::vector<Relaxation> others;
     std::copy_if(all_.begin(), all_.end(), std::back_inserter(others), [this](const Relaxation& relaxation) {
       return !is_clock(relaxation) && !relaxation.is(Relief::kFrameGap) &&
-             (!relieves_the_busiest(relaxation, trials_.base()) || relaxation.is(Relief::kSoftware));
+             !relaxation.is(Relief::kSoftware) && !relieves_the_busiest(relaxation, trials_.base());
     });
     if (others.empty() || !inside(trials_.measure(together(others)))) return;
     std::optional<RelaxedLimit> best;

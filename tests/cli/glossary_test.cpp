@@ -95,8 +95,13 @@ TEST_F(Glossary, NamesEveryNumberAndNoOther) {
       "camera.frame_rate=326 "
       "--json");
   check(
-      "run --timing-only --no-verdict --size 320x240 --set link.host_pixel_rate=0 --set link.line_rate=10e9 "
-      "--set clocks.camera_hz=39e6 --json");
+      "run --timing-only --no-verdict --size 320x240 --timing-frames 11 --set link.host_pixel_rate=0 --set "
+      "link.line_rate=10e9 --set clocks.camera_hz=39e6 --json");
+  const std::string alone =
+      "run --timing-only --preset core-alone --rectified --size 64x48 --set matching.iterations=1 --json ";
+  check(alone + "--no-verdict --set camera.frame_rate=60000 --set camera.frame_buffers=1");
+  check(alone + "--set streams.left_texture.depth=64");
+  check(alone + "--set streams.left_texture.depth=20 --set pipeline.pixels_per_token=2");
   program_.folder().write("trace.csv", "time_ns,rw,addr,bytes\n0,R,0x0,64\n0,W,0x8000,64\n");
   check("memory trace.csv --config ddr3-1066-x32 --json");
   for (const Entry& entry : entries_) EXPECT_TRUE(entry.occurs) << "no run writes " << entry.name;

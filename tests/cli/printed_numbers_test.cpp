@@ -126,13 +126,16 @@ const PrintedLine kBusy("<stage> | {stages/<stage>/busy_share}");
 const std::vector<PrintedLine>& verdicts() {
   static const std::vector<PrintedLine> all = [] {
     std::vector<PrintedLine> patterns;
-    for (const char* remedy :
-         {"<remedy...>", "a depth of <tokens..>", "8 times as many bursts under way", "a link of 1 Tbit/s"}) {
-      const std::string give = fmt::format("; {} give<s...> {{limit/relaxed_frame_rate}}, <then...>", remedy);
-      const std::string fifos = "; all FIFOs deeper give {limit/all_fifos_frame_rate}";
-      const std::string clock =
-          "; doubling the core's clock gives {limit/faster_clock_frame_rate}, as it shortens these waits too";
-      for (const std::string& end : {give, give + fifos, give + clock, give + fifos + clock}) {
+    const std::string fifos = "; all FIFOs deeper give {limit/all_fifos_frame_rate}";
+    const std::string clock =
+        "; doubling the core's clock gives {limit/faster_clock_frame_rate}, as it shortens these waits too";
+    // What says most comes first: "<remedy...>" could be anything.
+    for (const std::string& more : {fifos + clock, clock, fifos, std::string()}) {
+      for (const char* remedy :
+           {"a depth of <tokens..>", "depths of <tokens...>", "a default depth of <tokens..>",
+            "8 times as many bursts under way", "a link of 1 Tbit/s", "<remedy...>"}) {
+        const std::string end =
+            fmt::format("; {} give<s...> {{limit/relaxed_frame_rate}}, <then...>", remedy) + more;
         const std::string though =
             " limit<s...>, though <part...> is at work for {limit/utilisation} of the time" + end;
         patterns.emplace_back("<part...> limits at {limit/utilisation}" + end);
@@ -199,6 +202,16 @@ INSTANTIATE_TEST_SUITE_P(
                 "from exposure to results in memory"},
         Machine{"LinkOff", "--timing-only --size 160x128 --set link.enabled=false",
                 "from exposure to results in memory"},
+        Machine{
+            "AFifoThatAFasterClockHides",
+            "--timing-only --preset core-alone --rectified --size 64x48 --set matching.iterations=1 --set "
+            "streams.left_texture.depth=64",
+            "as it shortens these waits too"},
+        Machine{
+            "AFifoThatDoesMostOfIt",
+            "--timing-only --preset core-alone --rectified --size 64x48 --set matching.iterations=1 --set "
+            "pipeline.pixels_per_token=2 --set streams.left_texture.depth=20",
+            "all FIFOs deeper give"},
         Machine{"SmallRates", "--timing-only --size 64x48 --set clocks.core_hz=10000",
                 "frame rate 0.614 fps"},
         Machine{"SlowerStill",
