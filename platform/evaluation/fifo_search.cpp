@@ -90,7 +90,7 @@ RelaxedLimit shallowest(Trials& trials, const MachineConfig& config, const Relax
   const bool has_another = !depths.empty() && depths.back() == 0;
   if (has_another) depths.pop_back();
   const auto with = [&](std::int64_t tokens) { return fifo_relaxation(metrics, stream, tokens); };
-  const RelaxedLimit least = least_depth(trials, depths, with, enough).value_or(deep);
+  RelaxedLimit least = least_depth(trials, depths, with, enough).value_or(deep);
   if (!has_another) return least;
   const std::optional<RelaxedLimit> derived = with_derived_depth(trials, stream, enough);
   return derived && depth_of(derived->relaxation) < depth_of(least.relaxation) ? *derived : least;
