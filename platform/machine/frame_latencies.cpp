@@ -43,6 +43,7 @@ void FrameLatencies::begin_anew(std::size_t frame, bool cycles) {
   steady_.assign(frame_spans().size(), {});
   open_.clear();
   if (cycles) open_.resize(frame_spans().size());
+  whole_frames_ = open_frames_ = 0;
 }
 
 void FrameLatencies::begin_cycle(std::size_t frame) {

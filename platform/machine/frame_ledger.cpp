@@ -113,7 +113,7 @@ bool FrameLedger::follow_losses(std::int64_t frame) {
   } else {
     begins_anew_ = frame;
   }
-  losses_.begin(frame, of(frame));
+  losses_.begin(of(frame));
   return true;
 }
 

@@ -23,9 +23,9 @@ bool LatencyTrend::add(std::size_t frame, const sc_core::sc_time& latency) {
   block_.push_back(latency);
   known_ = known_ || block_.size() >= looks_.least;
   if (block_.size() < looks_.block) return false;
-  rising_ = has_trend();
-  if (rising_) last_slope_ = slope_of(block_);
-  calm_ = rising_ ? 0 : calm_ + 1;
+  const bool rising = has_trend();
+  if (rising) last_slope_ = slope_of(block_);
+  calm_ = rising ? 0 : calm_ + 1;
   // The first block without a trend may begin with the end of it.
   const bool anew = calm_ < kCalm;
   if (anew) {

@@ -61,7 +61,6 @@ class LatencyTrend {
   Looks looks_;
   std::vector<sc_core::sc_time> block_;
   bool known_ = false;
-  bool rising_ = false;       // the last whole block had a trend
   std::size_t calm_ = kCalm;  // blocks since one had a trend; many where none did
   double last_slope_ = 0;
   std::vector<double> means_;      // s, of the blocks since one had a trend

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <systemc>
@@ -15,15 +14,12 @@ namespace parallax {
 /// next ones wait for less. Rates and latencies of such a machine are those of whole cycles.
 class LossCycles {
  public:
-  /// Frame `frame` is at the host, and the one before its exposure was lost.
-  void begin(std::size_t frame, const FrameTimes& times) {
-    latest_ = {frame, times.at_host, times.at_host - times.due};
+  /// A frame is at the host, and the one before its exposure was lost.
+  void begin(const FrameTimes& times) {
+    latest_ = {times.at_host, times.at_host - times.due};
     if (number_++ == 0) first_ = latest_;
   }
   bool any() const { return number_ > 0; }
-  /// Frame with which the first (the latest) cycle begins, if any.
-  std::size_t first() const { return first_.frame; }
-  std::size_t latest() const { return latest_.frame; }
   /// Cycles that another one has followed.
   std::size_t whole() const { return number_ == 0 ? 0 : number_ - 1; }
   /// By which share the frame rate of many more cycles may differ from that of the whole ones, at most: they
@@ -35,7 +31,6 @@ class LossCycles {
 
  private:
   struct Beginning {
-    std::size_t frame = 0;
     sc_core::sc_time at_host;
     sc_core::sc_time latency;  // from the exposure
   };

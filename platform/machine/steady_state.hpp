@@ -30,8 +30,8 @@ struct RunLength {
 };
 
 /// All frames of the input, and at least `asked`; if nothing is asked, so many that two frame periods lie
-/// after the warm-up, and on until more frames would show nothing new (FrameLedger::done), within
-/// kMostFrames. Where triggers jitter or frames have faults, a hundred and more.
+/// after the warm-up, and on until more frames would show nothing new (MachineInput::enough),
+/// within kMostFrames. Where triggers jitter or frames have faults, a hundred and more.
 RunLength run_length(const MachineConfig& config, std::int64_t input_frames,
                      std::optional<std::int64_t> asked);
 

@@ -355,59 +355,6 @@ TEST_F(Limits, WhatWillBeDroppedIsSaidBeforeTheBuffersAreFull) {
   }
 }
 
-// With one frame buffer the core has nothing to do between a frame that finds none and the next one, so that
-// the rate is not the core's own. From the numbers of frames that two long runs drop, an independent measure.
-TEST(LossRates, AreThoseOfWholeCycles) {
-  const test::Program program;
-  const auto run = [&program](const std::string& arguments) {
-    const test::Outcome outcome = program("run --timing-only --no-verdict --json " + arguments);
-    EXPECT_EQ(outcome.code, 0) << outcome.err;
-    return nlohmann::json::parse(outcome.out);
-  };
-  const auto rate = [](const nlohmann::json& tree) {
-    return tree["performance"]["frame_rate"]["value"].get<double>();
-  };
-  const auto latency = [](const nlohmann::json& tree) {
-    return tree["latency"]["exposure_to_host_mean"]["value"].get<double>();
-  };
-  const auto dropped = [](const nlohmann::json& tree) {
-    return tree["camera"]["dropped_frames"]["value"].get<double>();
-  };
-  const std::string alone = "--preset core-alone --rectified --size 64x48 --set camera.frame_buffers=1 ";
-  const std::string overlapping = alone + "--set pipeline.overlap_frames=true ";
-  struct Case {
-    std::string machine;
-    double sent;
-    double through = 0;  // of what is sent, where that is known
-  };
-  for (const Case& c :
-       {Case{overlapping + "--set matching.iterations=8", 8000, 10 / 11.0},
-        Case{alone + "--set matching.iterations=2", 29592.56},
-        Case{overlapping + "--set matching.iterations=1 --set camera.early_start_rows=8", 61809.14},
-        Case{"--size 128x64 --set software.queue_frames=true --set link.host_pixel_rate=0 --set "
-             "camera.early_start_rows=8 --set link.output_buffers=1",
-             1537.58}}) {
-    const std::string at_rate = c.machine + fmt::format(" --set camera.frame_rate={} ", c.sent);
-    const auto frames = [&](int number) { return run(at_rate + fmt::format("--timing-frames {}", number)); };
-    const nlohmann::json once = frames(1000);
-    const nlohmann::json twice = frames(3000);
-    const double expected = c.sent * 2000 / (2000 + dropped(twice) - dropped(once));
-    const nlohmann::json usual = run(at_rate);
-    for (const nlohmann::json* tree : {&usual, &once, &twice}) {
-      EXPECT_NEAR(rate(*tree) / expected, 1, 6e-4) << at_rate;
-      EXPECT_EQ((*tree)["steady"]["established"]["value"], "yes") << at_rate;
-      EXPECT_GE((*tree)["steady"]["loss_cycles"]["value"], 2) << at_rate;
-      EXPECT_EQ((*tree)["steady"].count("drops_when_full"), 0u) << at_rate;
-    }
-    // It is no matter where in a cycle the run ends.
-    EXPECT_NEAR(latency(usual) / latency(twice), 1, 2e-3) << at_rate;
-    EXPECT_NEAR(rate(usual) / rate(twice), 1, 1e-4) << at_rate;
-    if (c.through != 0) {
-      EXPECT_NEAR(rate(usual), c.through * c.sent, 0.01);
-    }
-  }
-}
-
 // A queue that is full within a thousand frames is waited for, one that fills for longer is not.
 TEST_F(Limits, ARunGoesOnUntilTheQueueIsFull) {
   const std::string machine = "--size 64x48 --timing-only --set link.host_pixel_rate=1e6 ";
