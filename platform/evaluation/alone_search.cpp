@@ -7,6 +7,8 @@
 #include <optional>
 #include <utility>
 
+#include "platform/evaluation/own_work.hpp"
+
 namespace parallax {
 namespace {
 
@@ -37,8 +39,14 @@ void AloneSearch::run(const std::vector<Relaxation>& own, const std::vector<Rela
   });
   std::vector<std::vector<Relaxation>> sets;
   for (const Relaxation& one : own) sets.push_back({one});
-  if (!sorted.empty()) sets.push_back(sorted);
   branch(sets);
+  if (besides_.empty()) {
+    const auto hopeless = [this](const Relaxation& one) {
+      return most_gain(one, trials_.base().metrics) < worth_a_look();
+    };
+    sorted.erase(std::remove_if(sorted.begin(), sorted.end(), hopeless), sorted.end());
+  }
+  if (!sorted.empty()) branch({sorted});
   for (bool first = true; !open_.empty(); first = false) {
     const auto most = std::max_element(open_.begin(), open_.end(),
                                        [](const Node& a, const Node& b) { return a.gain < b.gain; });

@@ -16,6 +16,7 @@ namespace parallax {
 /// That taking more away never makes a machine slower is nearly true only: a faster part may meet the memory
 /// at a worse moment. Of random machines, sets were up to 1 % slower than one of them alone; so a set is left
 /// out only when it is worse than the best one by that, or where that gains less than 2 %, by half of it.
+/// What a part that works for a frame as long as before leaves no time to gain is not tried at all.
 class AloneSearch {
  public:
   /// Hears of each that was tried alone.

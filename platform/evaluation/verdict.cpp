@@ -10,6 +10,7 @@
 
 #include "platform/evaluation/alone_search.hpp"
 #include "platform/evaluation/fifo_search.hpp"
+#include "platform/evaluation/own_work.hpp"
 #include "platform/evaluation/trials.hpp"
 #include "platform/machine/part.hpp"
 #include "platform/results/rate_metrics.hpp"
@@ -76,8 +77,9 @@ std::string sentence(const EvaluationResult& base, const Verdict& verdict) {
          "; the time for trials was over before all others were tried, --relax tries them";
 }
 
-// The share of a frame's time that goes when a limit does.
-double share_of(const RelaxedLimit& limit) { return 1 - 1 / (1 + limit.gain / 100); }
+// The share of a frame's time that goes when a limit does, which gains so much, %.
+double share_of(double gain) { return 1 - 1 / (1 + gain / 100); }
+double share_of(const RelaxedLimit& limit) { return share_of(limit.gain); }
 
 class Search {
  public:
@@ -153,9 +155,10 @@ class Search {
       return limit.measured && share_of(limit) > outside + kLeastInside;
     };
     std::vector<Relaxation> others;
-    std::copy_if(all_.begin(), all_.end(), std::back_inserter(others), [this](const Relaxation& relaxation) {
+    std::copy_if(all_.begin(), all_.end(), std::back_inserter(others), [&](const Relaxation& relaxation) {
       return !is_clock(relaxation) && !relaxation.is(Relief::kFrameGap) &&
-             !relaxation.is(Relief::kSoftware) && !relieves_the_busiest(relaxation, trials_.base());
+             !relaxation.is(Relief::kSoftware) && !relieves_the_busiest(relaxation, trials_.base()) &&
+             share_of(most_gain(relaxation, trials_.base().metrics)) > outside + kLeastInside;
     });
     if (others.empty() || !inside(trials_.measure(together(others)))) return;
     std::optional<RelaxedLimit> best;

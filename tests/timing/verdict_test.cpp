@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "platform/evaluation/evaluation_pool.hpp"
+#include "platform/evaluation/own_work.hpp"
 #include "platform/input/image_padding.hpp"
 #include "tests/timing/random_machine.hpp"
 
@@ -92,6 +93,12 @@ TEST(Verdict, NothingGainsMoreThanWhatItNames) {
     const Verdict quick = subject.verdict(Thoroughness::kUntilCertain);
     const Verdict all = subject.verdict(Thoroughness::kAll);
     const RelaxedLimit& most = most_unexplained(all);  // each limit alone is tried there
+    for (const RelaxedLimit& limit : all.limits.alone) {
+      if (!limit.measured) continue;
+      EXPECT_LE(limit.gain, most_gain(limit.relaxation, subject.base().metrics) + RelaxedLimit::kNoise)
+          << "seed " << seed << ": " << limit.relaxation.name << '\n'
+          << c.text();
+    }
     for (const Verdict& verdict : {quick, all}) {
       const double named = verdict.limits.limit ? verdict.limits.limit->gain : 0;
       EXPECT_LE(most.gain, named + RelaxedLimit::kNoise)
@@ -140,6 +147,16 @@ TEST(Verdict, FindsPathCostsInMemoryWithFewRuns) {
   const Verdict all = subject.verdict(Thoroughness::kAll);
   EXPECT_EQ(all.limits.limit_name(), "path_storage") << all.sentence;
   EXPECT_EQ(quick.sentence, all.sentence);
+}
+
+// Where host or cameras are at work all the time, nothing else is tried.
+TEST(Verdict, TriesNothingThatThePartAtWorkLeavesNoTimeFor) {
+  Subject host(64, 48, small({"link.host_pixel_rate=1000000"}));
+  EXPECT_EQ(host.verdict(Thoroughness::kUntilCertain).limits.limit_name(), "host");
+  EXPECT_EQ(host.evaluations(), 1U);
+  Subject cameras(64, 48, small({"camera.frame_rate=500"}));
+  EXPECT_EQ(cameras.verdict(Thoroughness::kUntilCertain).limits.limit_name(), "camera");
+  EXPECT_LE(cameras.evaluations(), 2U);
 }
 
 // However few trials there may be, the sentence names the best of them, and says that there were no more.
