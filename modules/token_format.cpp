@@ -17,6 +17,10 @@ std::int64_t value_of(std::uint64_t bits, const TokenField& field) {
   return negative ? value - (std::int64_t{1} << field.width) : value;
 }
 
+[[noreturn]] void has_no_place(const TokenField& field, std::int64_t value) {
+  throw std::out_of_range(fmt::format("{} = {} has no place in {} bits", field.name, value, field.width));
+}
+
 }  // namespace
 
 TokenFormat& TokenFormat::field(const std::string& name, std::size_t width, bool is_signed) {
@@ -49,10 +53,19 @@ std::int64_t TokenFormat::get(const BitVector& bus, std::size_t index) const {
 void TokenFormat::set(BitVector& bus, std::size_t index, std::int64_t value) const {
   const TokenField& field = fields_.at(index);
   const std::uint64_t bits = value;
-  if (value_of(bits, field) != value) {
-    throw std::out_of_range(fmt::format("{} = {} has no place in {} bits", field.name, value, field.width));
-  }
+  if (value_of(bits, field) != value) has_no_place(field, value);
   bus.set(field.low, field.width, bits);
+}
+
+void FieldPacker::next(std::int64_t value) {
+  const TokenField& field = format_.all().at(field_++);
+  std::uint64_t bits = value;
+  if (value_of(bits, field) != value) has_no_place(field, value);
+  if (field.width < kWord) bits &= (std::uint64_t{1} << field.width) - 1;
+  const std::size_t word = field.low / kWord;
+  const std::size_t shift = field.low % kWord;
+  bits_[word] |= bits << shift;
+  if (shift + field.width > kWord) bits_[word + 1] |= bits >> (kWord - shift);
 }
 
 }  // namespace parallax

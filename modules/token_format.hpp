@@ -45,4 +45,23 @@ class TokenFormat {
   std::size_t bits_ = 0;
 };
 
+/// Puts the fields of a token one after the other into words of 64 bits.
+class FieldPacker {
+ public:
+  /// `bits` becomes as long as the format's width needs, all 0; both must outlive the packer.
+  FieldPacker(const TokenFormat& format, std::vector<std::uint64_t>& bits) : format_(format), bits_(bits) {
+    bits_.assign((format.width().size() + kWord - 1) / kWord, 0);
+  }
+
+  /// std::out_of_range when the field is too narrow for the value, or there is no further field.
+  void next(std::int64_t value);
+
+ private:
+  static constexpr std::size_t kWord = 64;
+
+  const TokenFormat& format_;
+  std::vector<std::uint64_t>& bits_;
+  std::size_t field_ = 0;
+};
+
 }  // namespace parallax

@@ -2,6 +2,11 @@
 // How the tokens of the pipeline lie on wires, each stated once: pixel.hpp says what they mean.
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
 #include "modules/pixel.hpp"
 #include "modules/token_format.hpp"
 
@@ -38,6 +43,32 @@ BitVector pack_code(const TokenFormat& census_code, CensusCode value);
 /// As many costs as the format has fields.
 BitVector pack_costs(const TokenFormat& cost_group, const Cost* values);
 BitVector pack(const TokenFormat& disparity, const Disparity& value);
+
+/// Fields that a value takes.
+template <class T>
+inline constexpr std::size_t kWiredFields = 1;
+template <>
+inline constexpr std::size_t kWiredFields<OffsetPair> = 4;
+
+/// A value's fields.
+inline std::array<std::int64_t, 1> wired_fields(std::uint64_t value) {
+  return {static_cast<std::int64_t>(value)};
+}
+inline std::array<std::int64_t, 1> wired_fields(const Disparity& value) { return {value.value}; }
+inline std::array<std::int64_t, 4> wired_fields(const OffsetPair& value) {
+  return {value.left.dx, value.left.dy, value.right.dx, value.right.dy};
+}
+
+/// The first `size` values of a token, one field after the other, into `bits`: its width, bit 0 lowest in the
+/// first word; fields beyond them are 0. Needs no more values than the format has fields for.
+template <class T>
+void pack_values(const TokenFormat& format, const T* values, std::size_t size,
+                 std::vector<std::uint64_t>& bits) {
+  FieldPacker packer(format, bits);
+  for (std::size_t i = 0; i < size; ++i) {
+    for (const std::int64_t field : wired_fields(values[i])) packer.next(field);
+  }
+}
 
 Gray unpack_gray(const TokenFormat& gray, const BitVector& bus);
 OffsetPair unpack_offset_pair(const TokenFormat& offset_pair, const BitVector& bus);

@@ -20,6 +20,13 @@ struct TapConfig {
   /// Where values come in pieces of one size whose last token may be shorter (bursts of an image): values of
   /// a piece. 0: every token is full.
   std::size_t values_per_piece = 0;
+  /// Where tokens are of several sizes otherwise: runs of tokens, over and over (those of a frame), in place
+  /// of the two above.
+  struct Run {
+    std::uint64_t tokens = 0;  ///< >= 1
+    std::size_t values = 0;    ///< of each, >= 1
+  };
+  std::vector<Run> runs{};
   enum class Side { kWrites, kReads };
   Side side = Side::kWrites;  ///< whose dates
   /// Values come before their dates, as from all stages and DMA engines, so a date without a value has none,
@@ -106,11 +113,16 @@ class Tap final : private StreamListener, private RowListener<T> {
     }
     into_piece_ += wanted;
     if (into_piece_ == config_.values_per_piece) into_piece_ = 0;
+    if (!config_.runs.empty() && ++into_run_ == config_.runs[run_].tokens) {
+      into_run_ = 0;
+      run_ = (run_ + 1) % config_.runs.size();
+    }
   }
 
   std::size_t available() const { return values_.size() - first_; }
   // Values of the next token.
   std::size_t token_size() const {
+    if (!config_.runs.empty()) return config_.runs[run_].values;
     if (config_.values_per_piece == 0) return config_.values_per_token;
     return std::min(config_.values_per_token, config_.values_per_piece - into_piece_);
   }
@@ -120,6 +132,8 @@ class Tap final : private StreamListener, private RowListener<T> {
   const Take take_;
   std::uint64_t number_ = 0;
   std::size_t into_piece_ = 0;  // values of the piece that are handed over
+  std::size_t run_ = 0;         // of the next token,
+  std::uint64_t into_run_ = 0;  // and tokens of it that are handed over
   std::vector<T> values_;       // whose dates are not known,
   std::size_t first_ = 0;       // from this one on
   Ring<Cycles> dates_;          // whose values are not known

@@ -14,6 +14,7 @@
 
 #include "platform/commands/command_context.hpp"
 #include "platform/commands/common_options.hpp"
+#include "platform/commands/compare_command.hpp"
 #include "platform/commands/compare_runs_command.hpp"
 #include "platform/commands/config_command.hpp"
 #include "platform/commands/exit_codes.hpp"
@@ -25,6 +26,7 @@
 #include "platform/commands/run_command.hpp"
 #include "platform/commands/scene_command.hpp"
 #include "platform/commands/validate_command.hpp"
+#include "platform/commands/vectors_command.hpp"
 #include "platform/config/nearest_name.hpp"
 #include "platform/results/version.hpp"
 #include "tlm/error.hpp"
@@ -107,6 +109,8 @@ void add_commands(CLI::App& app, CommandContext& context) {
   add_report_command(app, context);
   add_compare_runs_command(app, context);
   add_validate_command(app, context);
+  add_vectors_command(app, context);
+  add_compare_command(app, context);
   refuse_empty_values(app);
 }
 

@@ -11,6 +11,7 @@
 #include "modules/consistency_stage.hpp"
 #include "modules/map_decoder_stage.hpp"
 #include "modules/matching_stage.hpp"
+#include "modules/output_packing.hpp"
 #include "modules/output_packing_stage.hpp"
 #include "modules/pixel_unpack_stage.hpp"
 #include "modules/rectification_stage.hpp"
@@ -54,6 +55,42 @@ UnpackerConfig map_bursts(const EncodedMap& map, const DmaPortConfig& port) {
   return {map.bytes.size(), Bytes(port.burst_bytes), Bytes(port.data_bits / 8)};
 }
 
+// Tokens of bytes, of pieces that are cut anew.
+TokenShape bytes(std::size_t token, std::vector<TapConfig::Run> runs) {
+  TokenShape shape(word_format(token));
+  shape.runs = std::move(runs);
+  return shape;
+}
+
+TokenShape image_shape(const PixelUnpackConfig& config) {
+  return bytes(config.burst.size(), cut_into_tokens(config.piece_bytes, config.burst.size()));
+}
+
+// What is kept of a tile's row is a piece; of the only tile, all of them are one.
+TokenShape result_shape(const TilePlan& tiles, int height, const OutputPackingConfig& config) {
+  const std::size_t burst = config.burst.size();
+  std::vector<TapConfig::Run> runs;
+  for (const Tile& tile : tiles.tiles) {
+    const std::uint64_t row = OutputPacking::row_bytes(tile.keep_end - tile.keep_begin, config.left);
+    const int pieces = tiles.tiles.size() > 1 ? height : 1;
+    for (int piece = 0; piece < pieces; ++piece) {
+      for (const TapConfig::Run& run : cut_into_tokens(row * height / pieces, burst)) runs.push_back(run);
+    }
+  }
+  return bytes(burst, runs);
+}
+
+// Records of a pass may be shorter than those of another one.
+TokenShape record_shape(const StoreLayout& layout, std::size_t record) {
+  TokenShape shape(word_format(record));
+  shape.row_tokens = layout.width;
+  for (const StoreLayout::Pass& pass : layout.passes) {
+    if (pass.record_bytes * pass.rows > 0)
+      shape.runs.push_back({layout.width * pass.rows, static_cast<std::size_t>(pass.record_bytes)});
+  }
+  return shape;
+}
+
 Bits burst_bits(const DmaPortConfig& port) { return Bits(port.burst_bytes * 8); }
 
 // Makes a stage follow the run-time parameters in a part of the configuration; not what stands in its place
@@ -94,9 +131,9 @@ Pipeline::Pipeline(const sc_core::sc_module_name& name, const MachineConfig& con
   place_inputs(map, tiles);
   place_matching();
   place_filters(tiles);
-  connect_inputs();
+  connect_inputs(map, tiles);
   connect_matching();
-  const std::string results = connect_filters();
+  const std::string results = connect_filters(tiles);
   if (store_.keeps_rows()) rows_ = place_store("rows", store_.rows, false);
   if (store_.keeps_frame()) frame_ = place_store("frame", store_.frame, true);
   wiring_.build();
@@ -177,13 +214,14 @@ std::unique_ptr<Pipeline::Store> Pipeline::place_store(const std::string& what, 
   wiring_.place<StoreUnpackStage>("unpack_" + what, facts, layout, backwards, context_.clock,
                                   context_.dataflow);
   auto store = std::make_unique<Store>(what, context_, engine_config(port).fifo());
-  wiring_.attach(store->kept, {"pack_" + what, "out_bursts"});
-  wiring_.attach(store->returned, {"unpack_" + what, "in_bursts"});
+  const TokenShape burst(word_format(port.burst_bytes));
+  wiring_.attach(store->kept, burst, {"pack_" + what, "out_bursts"});
+  wiring_.attach(store->returned, burst, {"unpack_" + what, "in_bursts"});
   std::uint64_t record_bytes = 0;
   for (const StoreLayout::Pass& pass : layout.passes) {
     record_bytes = std::max(record_bytes, pass.record_bytes);
   }
-  const TokenFormat record = word_format(record_bytes);
+  const TokenShape record = record_shape(layout, record_bytes);
   wiring_.connect<std::uint8_t>("kept_" + what, record, {"matching", "out_" + what},
                                 {"pack_" + what, "in_records"});
   wiring_.connect<std::uint8_t>("returned_" + what, record, {"unpack_" + what, "out_records"},
@@ -191,18 +229,32 @@ std::unique_ptr<Pipeline::Store> Pipeline::place_store(const std::string& what, 
   return store;
 }
 
-void Pipeline::connect_inputs() {
-  const auto pixels = static_cast<std::size_t>(context_.pixels_per_token);
-  const TokenFormat gray = gray_format().several(pixels);
-  wiring_.attach(left_bursts_, {"unpack_left", "in_bursts"});
-  wiring_.attach(right_bursts_, {"unpack_right", "in_bursts"});
-  wiring_.attach(map_bursts_, {"unpack_map", "in_bursts"});
+// One pixel after the other, of whose values `format` is one.
+TokenShape Pipeline::raster(const TokenFormat& format) const {
+  TokenShape shape(format.several(static_cast<std::size_t>(context_.pixels_per_token)));
+  shape.row_tokens = context_.row_tokens();
+  shape.pixels_per_token = static_cast<std::uint64_t>(context_.pixels_per_token);
+  return shape;
+}
+
+void Pipeline::connect_inputs(const EncodedMap& map, const TilePlan& tiles) {
+  const DmaConfig& dma = config_.dma;
+  const auto image = [&](const DmaPortConfig& port) {
+    return image_shape(image_bursts(tiles, context_, config_.camera.format, port));
+  };
+  const auto cut_map_into = [&map](std::size_t token) {
+    return bytes(token, cut_into_tokens(map.bytes.size(), token));
+  };
+  const TokenShape gray = raster(gray_format());
+  wiring_.attach(left_bursts_, image(dma.left), {"unpack_left", "in_bursts"});
+  wiring_.attach(right_bursts_, image(dma.right), {"unpack_right", "in_bursts"});
+  wiring_.attach(map_bursts_, cut_map_into(dma.map.burst_bytes), {"unpack_map", "in_bursts"});
   wiring_.connect<Gray>("left_pixels", gray, {"unpack_left", "out_tokens"}, {"rectification", "in_left"});
   wiring_.connect<Gray>("right_pixels", gray, {"unpack_right", "out_tokens"}, {"rectification", "in_right"});
-  wiring_.connect<std::uint8_t>("map_words", word_format(config_.dma.map.data_bits / 8),
+  wiring_.connect<std::uint8_t>("map_words", cut_map_into(dma.map.data_bits / 8),
                                 {"unpack_map", "out_tokens"}, {"map_decoder", "in_words"});
   wiring_.connect<OffsetPair>("map_entries",
-                              offset_pair_format(config_.rectification.range.offset_bits()).several(pixels),
+                              raster(offset_pair_format(config_.rectification.range.offset_bits())),
                               {"map_decoder", "out_map"}, {"rectification", "in_map"}, Wiring::Reads::kLate);
   wiring_.connect<Gray>("left_rectified", gray, {"rectification", "out_left"}, {"census", "in_left"});
   wiring_.connect<Gray>("right_rectified", gray, {"rectification", "out_right"}, {"census", "in_right"});
@@ -211,12 +263,14 @@ void Pipeline::connect_inputs() {
 }
 
 void Pipeline::connect_matching() {
-  const auto pixels = static_cast<std::size_t>(context_.pixels_per_token);
-  const TokenFormat code = census_code_format(config_.census.code_bits()).several(pixels);
-  const TokenFormat costs = cost_group_format(config_.matching.parallelism,
-                                              summed_cost_bits(config_.matching, config_.census.code_bits()))
-                                .several(config_.matching.parallel_rows);
-  const TokenFormat disparity = disparity_format().several(pixels);
+  const TokenShape code = raster(census_code_format(config_.census.code_bits()));
+  const TokenShape disparity = raster(disparity_format());
+  TokenShape costs(cost_group_format(config_.matching.parallelism,
+                                     summed_cost_bits(config_.matching, config_.census.code_bits()))
+                       .several(config_.matching.parallel_rows));
+  costs.row_tokens = context_.row_tokens() * config_.matching.groups(context_.pixels_per_token).of_token;
+  costs.tokens_per_pixel = static_cast<std::uint64_t>(config_.matching.iterations);
+  costs.first_disparity = config_.matching.disparity_offset;
   wiring_.connect<CensusCode>("left_codes", code, {"census", "out_left"}, {"matching", "in_left"});
   wiring_.connect<CensusCode>("right_codes", code, {"census", "out_right"}, {"matching", "in_right"});
   for (const char* stage : {"subpixel", "uniqueness", "consistency"}) {
@@ -232,8 +286,8 @@ void Pipeline::connect_matching() {
 }
 
 // From one filter to the next, and to the packing; returns the name of the last stream.
-std::string Pipeline::connect_filters() {
-  const TokenFormat disparity = disparity_format().several(context_.pixels_per_token);
+std::string Pipeline::connect_filters(const TilePlan& tiles) {
+  const TokenShape disparity = raster(disparity_format());
   PortName from{"texture", "out_disparity"};
   std::string stream = "textured";
   for (const auto& filter : config_.filters.all()) {
@@ -242,7 +296,10 @@ std::string Pipeline::connect_filters() {
     stream = filter->stream();
   }
   wiring_.connect<Disparity>(stream, disparity, from, {"output_packing", "in_disparity"});
-  wiring_.attach(output_bursts_, {"output_packing", "out_bursts"});
+  wiring_.attach(
+      output_bursts_,
+      result_shape(tiles, context_.height, packing(tiles, config_.link.output_left(), config_.dma.output)),
+      {"output_packing", "out_bursts"});
   return stream;
 }
 
@@ -281,6 +338,12 @@ void Pipeline::keep_frames(std::size_t frames) {
 
 void Pipeline::pin_frame(std::size_t frame) {
   for (const StageInfo& info : stages()) const_cast<Stage*>(info.stage)->pin_frame(frame * info.passes);
+}
+
+std::vector<std::string> Pipeline::slots() const {
+  std::vector<std::string> names;
+  for (const auto& slot : wiring_.slots()) names.push_back(slot->name);
+  return names;
 }
 
 std::vector<StageInfo> Pipeline::stages() const {

@@ -54,6 +54,12 @@ class Pipeline final : public sc_core::sc_module {
   bool is_matcher(const Stage& stage) const;
   /// Upstream to downstream. Blocks in kernel time that replace stages are not among them.
   std::vector<StageInfo> stages() const;
+  /// The names of the slots, upstream to downstream.
+  std::vector<std::string> slots() const;
+  /// std::logic_error for a slot that is not there.
+  const SlotModule& slot(const std::string& name) const { return wiring_.slot(name).content; }
+  /// The ports of what stands in a slot, inputs first; none of a slot that is not there.
+  std::vector<TokenPort> ports(const std::string& slot) const { return wiring_.ports(slot); }
 
  private:
   struct Store {  // streams between the matcher's slots and a pair of memory ports
@@ -62,12 +68,13 @@ class Pipeline final : public sc_core::sc_module {
     Stream<std::uint8_t> returned;
   };
 
+  TokenShape raster(const TokenFormat& format) const;
   void place_inputs(const EncodedMap& map, const TilePlan& tiles);
   void place_matching();
   void place_filters(const TilePlan& tiles);
-  void connect_inputs();
+  void connect_inputs(const EncodedMap& map, const TilePlan& tiles);
   void connect_matching();
-  std::string connect_filters();
+  std::string connect_filters(const TilePlan& tiles);
   std::unique_ptr<Store> place_store(const std::string& what, const StoreLayout& layout, bool backwards);
 
   const MachineConfig& config_;

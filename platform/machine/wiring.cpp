@@ -40,6 +40,27 @@ void Wiring::misfit(const PortName& name) {
       fmt::format("what stands in the slot {} has no port {} for the tokens there", name.slot, name.port));
 }
 
+std::vector<TokenPort> Wiring::ports(const std::string& slot) const {
+  std::vector<TokenPort> all;
+  for (const End& end : ends_) {
+    if (end.port.slot != slot) continue;
+    const auto same = std::find_if(all.begin(), all.end(),
+                                   [&](const TokenPort& each) { return each.name == end.port.port; });
+    if (same != all.end()) {
+      same->streams.push_back(end.stream);
+      continue;
+    }
+    const bool is_input = dynamic_cast<const StreamPort&>(port(end.port)).is_input();
+    all.push_back({end.port.port,
+                   is_input,
+                   {end.stream},
+                   end.shape,
+                   [is_input, tap = end.tap](const TokenTap::Take& take) { return tap(is_input, take); }});
+  }
+  std::stable_partition(all.begin(), all.end(), [](const TokenPort& each) { return each.is_input; });
+  return all;
+}
+
 void Wiring::build() {
   for (const auto& [name, factory] : replacements_) index(name);
 

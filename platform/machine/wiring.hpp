@@ -10,9 +10,10 @@
 #include <utility>
 #include <vector>
 
-#include "modules/token_format.hpp"
 #include "platform/config/stream_config.hpp"
 #include "platform/machine/stage_slot.hpp"
+#include "platform/machine/token_port.hpp"
+#include "platform/machine/token_shape.hpp"
 #include "tlm/fork_depths.hpp"
 #include "tlm/stream.hpp"
 
@@ -62,21 +63,28 @@ class Wiring {
     return made;
   }
 
-  /// A stream of tokens that look like `format`; `groups`: a pixel is as many of them as its slots say. Depth
-  /// and kind are configured under its name.
+  /// A stream of tokens of this shape; `groups`: a pixel is as many of them as its slots say. Depth and kind
+  /// are configured under its name.
   template <class T>
-  void connect(const std::string& stream, const TokenFormat& format, const PortName& from, const PortName& to,
+  void connect(const std::string& stream, const TokenShape& shape, const PortName& from, const PortName& to,
                Reads reads = Reads::kAhead, bool groups = false);
   /// One end of a stream that is there already: at a port of the memory.
   template <class T>
-  void attach(Stream<T>& stream, const PortName& port) {
+  void attach(Stream<T>& stream, const TokenShape& shape, const PortName& port) {
     bind<StreamOut<T>, StreamIn<T>>(stream, port);
+    ends_.push_back(
+        {port, stream.basename(), shape, [&stream, shape](bool reads, const TokenTap::Take& take) {
+           return std::make_unique<ValueTap<T>>(stream, shape, reads, take);
+         }});
   }
 
   /// Makes and binds the streams. Nothing can be placed or connected behind this.
   void build();
 
   const std::vector<std::unique_ptr<Slot>>& slots() const { return slots_; }
+  const Slot& slot(const std::string& name) const { return *slots_[index(name)]; }
+  /// The ports of what stands in a slot, inputs first, after build().
+  std::vector<TokenPort> ports(const std::string& slot) const;
   /// The stream of that name, after build().
   template <class T>
   Stream<T>& stream(const std::string& name) const;
@@ -89,6 +97,13 @@ class Wiring {
     Reads reads;
     bool groups;
     std::function<std::unique_ptr<StreamBase>(const char* name, const FifoConfig& fifo)> make;  // and bind
+  };
+
+  struct End {  // of a stream
+    PortName port;
+    std::string stream;
+    TokenShape shape;
+    std::function<std::unique_ptr<TokenTap>(bool reads, const TokenTap::Take& take)> tap;
   };
 
   std::size_t index(const std::string& slot) const;
@@ -111,19 +126,20 @@ class Wiring {
   const StageReplacements replacements_;
   std::vector<std::unique_ptr<Slot>> slots_;
   std::vector<Wire> wires_;
+  std::vector<End> ends_;
   std::vector<std::unique_ptr<StreamBase>> streams_;
 };
 
 template <class T>
-void Wiring::connect(const std::string& stream, const TokenFormat& format, const PortName& from,
+void Wiring::connect(const std::string& stream, const TokenShape& shape, const PortName& from,
                      const PortName& to, Reads reads, bool groups) {
-  const auto make = [this, from, to](const char* name, const FifoConfig& fifo) {
+  const auto make = [this, shape, from, to](const char* name, const FifoConfig& fifo) {
     auto made = std::make_unique<Stream<T>>(name, context_.dataflow, context_.clock, context_.clock, fifo);
-    attach(*made, from);
-    attach(*made, to);
+    attach(*made, shape, from);
+    attach(*made, shape, to);
     return made;
   };
-  wires_.push_back({stream, format.width(), index(from.slot), index(to.slot), reads, groups, make});
+  wires_.push_back({stream, shape.format.width(), index(from.slot), index(to.slot), reads, groups, make});
 }
 
 template <class T>

@@ -14,6 +14,8 @@
 #include "platform/config/configuration.hpp"
 #include "platform/config/dram_device.hpp"
 #include "platform/config/preset.hpp"
+#include "platform/cosim/dump_file.hpp"
+#include "platform/cosim/vector_manifest.hpp"
 #include "platform/images/image_codecs.hpp"
 #include "platform/input/address_trace.hpp"
 #include "platform/input/image_input.hpp"
@@ -129,6 +131,20 @@ inline void read_trace(const TemporaryFolder& folder, const std::string& bytes) 
   read_address_trace(put(folder, "t.csv", bytes));
 }
 
+inline void read_manifest(const TemporaryFolder& folder, const std::string& bytes) {
+  put(folder, VectorManifest::kFile, bytes);
+  const VectorManifest manifest = read_vector_manifest(folder.path());
+  for (const VectorStream& stream : manifest.streams) manifest.place(stream, 12345, 0);
+}
+
+inline void read_dump_of(const TemporaryFolder& folder, const std::string& bytes) {
+  VectorStream stream;
+  stream.name = "left_codes";
+  stream.port = "out_left";
+  stream.shape = TokenShape(TokenFormat().field("code", 12).field("cause", 3, true));
+  read_dump(put(folder, "d.txt", bytes), stream);
+}
+
 inline void read_results(const TemporaryFolder& folder, const std::string& bytes) {
   const RunReport report = read_run_report(put(folder, "timing.json", bytes));
   report_of(folder.path());
@@ -149,6 +165,8 @@ inline const std::vector<FuzzedReader>& fuzzed_readers() {
       {"image", image_seeds, read_pair},
       {"truth", truth_seeds, read_truth},
       {"trace", trace_seeds, read_trace},
+      {"manifest", manifest_seeds, read_manifest},
+      {"dump", dump_seeds, read_dump_of},
       {"results", result_seeds, read_results}};
   return readers;
 }

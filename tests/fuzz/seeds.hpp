@@ -114,6 +114,21 @@ inline std::vector<std::string> trace_seeds() {
           "# DRAMSys\n10: read 0x1234\n12: (64) write 0x40 0011\n"};
 }
 
+inline std::vector<std::string> manifest_seeds() {
+  const Program program;
+  program("vectors -q --stage matching --out out --size 64x48 -d 32");
+  return {program.read("out/manifest.json")};
+}
+
+inline std::vector<std::string> dump_seeds() {
+  return {"// 0x0\n0001 7_fff\n@2 xz0 /* end */\n", "cycle,code,cause\n1,12,-4\n2,0xfff,x\n",
+          "data\n0x7fff\n1\n",
+          "$timescale 1ns $end $scope module b $end\n$var wire 1 ! clk $end\n$var wire 15 # out_left_data "
+          "[14:0] $end\n"
+          "$var wire 1 $ out_left_valid $end\n$var real 64 r r $end\n$upscope $end $enddefinitions $end\n#0\n"
+          "$dumpvars 0! b101 # 1$ $end\n#5 1!\n#10 0! bx1 #\nr1.5 r\n#15 1!\n"};
+}
+
 inline std::vector<std::string> result_seeds() {
   const Program program;
   program("run -q --timing-only --no-verdict --out out --size 64x48 -d 32");

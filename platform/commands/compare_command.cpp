@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "platform/commands/compare_command.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "platform/commands/command_context.hpp"
+#include "platform/commands/common_options.hpp"
+#include "platform/commands/exit_codes.hpp"
+#include "platform/config/nearest_name.hpp"
+#include "platform/cosim/dump_file.hpp"
+#include "platform/cosim/token_comparison.hpp"
+#include "tlm/error.hpp"
+#include "traces/json_text.hpp"
+
+namespace parallax {
+namespace {
+
+struct DumpOptions {
+  std::filesystem::path vectors;
+  std::vector<std::string> dumps;
+  std::vector<std::string> signals;
+  bool json = false;
+};
+
+struct NamedDump {
+  const VectorStream* stream;
+  std::string file;
+};
+
+// FILE, which is of the first output stream, or STREAM=FILE.
+NamedDump dump_of(const VectorManifest& manifest, const std::string& word) {
+  const std::size_t equals = word.find('=');
+  if (equals != std::string::npos) {
+    const std::string name = word.substr(0, equals);
+    if (const VectorStream* const stream = manifest.find(name)) return {stream, word.substr(equals + 1)};
+    if (!std::filesystem::exists(word)) {
+      std::vector<std::string> names;
+      for (const VectorStream& stream : manifest.streams) names.push_back(stream.name);
+      throw UserError(fmt::format("--dump {}: {} has no stream '{}'; the nearest is {}", excerpt(word),
+                                  manifest.stage, excerpt(name), nearest_name(name, names)));
+    }
+  }
+  const auto output = std::find_if(manifest.streams.begin(), manifest.streams.end(),
+                                   [](const VectorStream& stream) { return !stream.is_input; });
+  if (output == manifest.streams.end())
+    throw UserError(fmt::format("{} has no output stream: --dump STREAM=FILE", manifest.stage));
+  return {&*output, word};
+}
+
+DumpSignals read_signals(const std::vector<std::string>& words) {
+  DumpSignals signals;
+  for (const std::string& word : words) {
+    const std::size_t equals = word.find('=');
+    const std::string kind = word.substr(0, equals);
+    std::string* const target = kind == "data"    ? &signals.data
+                                : kind == "valid" ? &signals.valid
+                                : kind == "ready" ? &signals.ready
+                                : kind == "clock" ? &signals.clock
+                                                  : nullptr;
+    if (target == nullptr || equals == std::string::npos || equals + 1 == word.size()) {
+      throw UserError(fmt::format("--signals: '{}' is not data=NAME, valid=NAME, ready=NAME or clock=NAME",
+                                  excerpt(word)));
+    }
+    *target = word.substr(equals + 1);
+  }
+  return signals;
+}
+
+int compare_dumps(const DumpOptions& options, CommandContext& context) {
+  const DumpSignals signals = read_signals(options.signals);
+  const VectorManifest manifest = read_vector_manifest(options.vectors);
+  bool equal = true;
+  std::string said;
+  nlohmann::ordered_json streams = nlohmann::ordered_json::array();
+  for (const std::string& word : options.dumps) {
+    const NamedDump dump = dump_of(manifest, word);
+    const TokenWords expected = read_vectors((options.vectors / dump.stream->file).string(), *dump.stream);
+    const Dump got = read_dump(dump.file, *dump.stream, signals);
+    const TokenComparison comparison = compare_tokens(manifest, *dump.stream, expected, got);
+    equal = equal && comparison.equal();
+    said += text(comparison);
+    streams.push_back(to_json(comparison));
+  }
+  nlohmann::ordered_json tree{{"stage", manifest.stage}, {"equal", equal}};
+  // The first stream that differs, where a script looks for it.
+  const auto different = std::find_if(streams.begin(), streams.end(), [](const auto& stream) {
+    return !stream.at("equal").template get<bool>();
+  });
+  if (different != streams.end()) {
+    for (const char* const key : {"stream", "first_difference", "pattern"}) {
+      if (different->contains(key)) tree[key] = different->at(key);
+    }
+  }
+  tree["streams"] = std::move(streams);
+  if (options.json) {
+    context.out << json_text(tree, 2) << '\n';
+  } else if (context.verbosity != Verbosity::kQuiet) {
+    context.out << said;
+  }
+  return equal ? 0 : kNotAsExpected;
+}
+
+}  // namespace
+
+void add_compare_command(CLI::App& app, CommandContext& context) {
+  const auto options = std::make_shared<DumpOptions>();
+  CLI::App& command = *app.add_subcommand(
+      "compare",
+      "What a simulator wrote down of a circuit, beside the vectors of a stage: the first difference");
+  command.add_option("--vectors", options->vectors, "Folder of parallax vectors")
+      ->type_name("DIR")
+      ->required();
+  command
+      .add_option(
+          "--dump", options->dumps,
+          "What came out, in the order of the tokens: the text that $readmemh reads, CSV or VCD; without "
+          "a name, of the first output stream. Repeated for several streams")
+      ->type_name("[STREAM=]FILE")
+      ->allow_extra_args(false)
+      ->required();
+  command
+      .add_option(
+          "--signals", options->signals,
+          "Of a VCD, which signals are the stream: data=NAME,valid=NAME,ready=NAME,clock=NAME; if not "
+          "given, PORT_data, PORT_valid, PORT_ready and clk")
+      ->type_name("KIND=NAME,...")
+      ->delimiter(',');
+  add_json_option(command, options->json);
+  command.callback([options, &context] {
+    context.action = [options, &context] { return compare_dumps(*options, context); };
+  });
+}
+
+}  // namespace parallax

@@ -1,0 +1,407 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "platform/cosim/test_bench.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace parallax {
+namespace {
+
+// A template's words in @...@ are replaced by what belongs to a stream.
+using Replacements = std::vector<std::pair<std::string, std::string>>;
+
+std::string filled(std::string text, const Replacements& words) {
+  for (const auto& [name, value] : words) {
+    const std::string key = "@" + name + "@";
+    for (std::size_t at = text.find(key); at != std::string::npos; at = text.find(key, at + value.size()))
+      text.replace(at, key.size(), value);
+  }
+  return text;
+}
+
+std::string range(const VectorStream& stream) {
+  return fmt::format("[{}:0]", stream.shape.format.width().count() - 1);
+}
+
+std::string digits_of(const std::string& check, std::size_t width) {
+  return fmt::format("{}'h{}", width, check);
+}
+
+Replacements words_of(const VectorManifest& manifest, const VectorStream& stream) {
+  const std::size_t width = stream.shape.format.width().size();
+  const bool knows_rows = stream.shape.row_tokens > 0;
+  const std::uint64_t frame = std::max<std::uint64_t>(stream.frame_tokens, 1);
+  const std::uint64_t row = knows_rows ? stream.shape.row_tokens : frame;
+  return {{"port", stream.port},
+          {"stream", stream.name},
+          {"file", stream.file},
+          {"range", range(stream)},
+          {"width", std::to_string(width)},
+          {"rotated", width == 1 ? "@port@_sum"
+                                 : fmt::format("{{@port@_sum[{}:0], @port@_sum[{}]}}", width - 2, width - 1)},
+          {"port", stream.port},
+          {"check", digits_of(stream.check, width)},
+          {"tokens", std::to_string(stream.tokens)},
+          {"frame", std::to_string(frame)},
+          {"row", std::to_string(row)},
+          {"group", std::to_string(stream.shape.tokens_per_pixel)},
+          {"pixels", std::to_string(stream.shape.pixels_per_token)},
+          {"stage", manifest.stage}};
+}
+
+constexpr const char* kHead =
+    R"(// Test bench of the stage @stage@, written by @program@ with the vectors beside it.
+// It feeds the circuit with the inputs of @frames@ frame@s@ of @width@x@height@ px and compares what comes out. Run it in this folder:
+//   $ iverilog -g2012 -o sim @stage@_tb.sv @stage@.sv && vvp sim
+//   $ verilator --binary --timing -Wno-fatal --top-module @stage@_tb @stage@_tb.sv @stage@.sv && obj_dir/V@stage@_tb
+// The circuit is a module @stage@ with the ports of @stage@_stub.sv; -DDUT=NAME takes another module.
+// +seed=N: other stalls. +stall=N: each side waits in N of 256 cycles (64). +timeout=N: cycles without a
+// token until it gives up (@timeout@). +dump: writes what came out, for parallax compare. +vcd: writes waves.
+// It ends with a line that begins with PASS, or with FAIL and an exit code that is not 0.
+`timescale 1ns / 1ps
+`default_nettype none
+`ifndef DUT
+`define DUT @stage@
+`endif
+
+module @stage@_tb;
+  reg clk = 1'b0;
+  reg rst = 1'b1;
+  always #5 clk = ~clk;
+
+  integer stall;
+  integer seed;
+  integer timeout;
+  integer dump;
+  integer cycle = 0;
+  integer quiet = 0;  // cycles since a token moved
+  integer faults = 0;
+  integer i;
+
+  function automatic [31:0] shuffled(input [31:0] x);
+    reg [31:0] y;
+    begin
+      y = x ^ (x << 13);
+      y = y ^ (y >> 17);
+      shuffled = y ^ (y << 5);
+    end
+  endfunction
+)";
+
+constexpr const char* kInput = R"(
+  // @stream@
+  reg @range@ @port@_words [0:@tokens@ - 1];
+  reg @range@ @port@_sum;
+  reg @range@ @port@_data;
+  reg @port@_valid = 1'b0;
+  reg @port@_first = 1'b0;
+  reg @port@_last = 1'b0;
+  wire @port@_ready;
+  integer @port@_next = 0;   // token to be offered
+  integer @port@_taken = 0;  // tokens that the circuit has
+  reg [31:0] @port@_random;
+  always @(posedge clk) begin
+    @port@_random <= shuffled(@port@_random);
+    if (!rst) begin
+      if (@port@_ready !== 1'b0 && @port@_ready !== 1'b1) begin
+        if (faults < 10) $display("@port@_ready is unknown in cycle %0d", cycle);
+        faults = faults + 1;
+      end
+      if (@port@_valid && @port@_ready === 1'b1) @port@_taken <= @port@_taken + 1;
+      if (!@port@_valid || @port@_ready === 1'b1) begin
+        if (@port@_next < @tokens@ && {24'd0, @port@_random[31:24]} >= stall) begin
+          @port@_valid <= 1'b1;
+          @port@_data <= @port@_words[@port@_next];
+          @port@_first <= @port@_next % @frame@ == 0;
+          @port@_last <= @port@_next % @row@ == @row@ - 1;
+          @port@_next <= @port@_next + 1;
+        end else begin
+          @port@_valid <= 1'b0;
+          @port@_data <= {@width@{1'bx}};
+          @port@_first <= 1'b0;
+          @port@_last <= 1'b0;
+        end
+      end
+    end
+  end
+)";
+
+constexpr const char* kOutput = R"(
+  // @stream@
+  reg @range@ @port@_words [0:@tokens@ - 1];
+  reg @range@ @port@_sum;
+  wire @range@ @port@_data;
+  wire @port@_valid;
+  reg @port@_ready = 1'b0;
+  integer @port@_taken = 0;
+  integer @port@_wrong = 0;
+  integer @port@_file = 0;
+  reg @port@_held = 1'b0;  // offered and not taken, in the cycle before
+  reg @range@ @port@_offered;
+  reg @range@ @port@_expected;
+  reg [31:0] @port@_random;
+  always @(posedge clk) begin
+    @port@_random <= shuffled(@port@_random);
+    if (!rst) begin
+      @port@_ready <= {24'd0, @port@_random[31:24]} >= stall;
+      if (@port@_valid !== 1'b0 && @port@_valid !== 1'b1) begin
+        if (faults < 10) $display("@port@_valid is unknown in cycle %0d", cycle);
+        faults = faults + 1;
+      end
+      if (@port@_held && @port@_valid !== 1'b1) begin
+        if (faults < 10) $display("@port@_valid is withdrawn in cycle %0d, before the token was taken", cycle);
+        faults = faults + 1;
+      end
+      if (@port@_held && @port@_valid === 1'b1 && @port@_data !== @port@_offered) begin
+        if (faults < 10) $display("@port@_data changes in cycle %0d, before the token was taken", cycle);
+        faults = faults + 1;
+      end
+      @port@_held <= @port@_valid === 1'b1 && !@port@_ready;
+      @port@_offered <= @port@_data;
+      if (@port@_valid === 1'b1 && @port@_ready) begin
+        if (dump != 0) $fdisplay(@port@_file, "%h", @port@_data);
+        if (@port@_taken < @tokens@) begin
+          @port@_expected = @port@_words[@port@_taken];
+          if (@port@_data !== @port@_expected) begin
+            if (@port@_wrong == 0) begin
+              $display("@stream@: the first difference is @place@, in cycle %0d: expected %h, got %h",
+                       @arguments@, cycle, @port@_expected, @port@_data);
+            end
+            @port@_wrong = @port@_wrong + 1;
+          end
+        end else if (@port@_taken == @tokens@) begin
+          $display("@stream@: more than @tokens@ tokens come out, in cycle %0d", cycle);
+        end
+        @port@_taken <= @port@_taken + 1;
+      end
+    end
+  end
+)";
+
+constexpr const char* kBegin = R"(
+  `DUT dut (
+    .clk(clk),
+    .rst(rst)@connections@
+  );
+
+  initial begin
+    if (!$value$plusargs("seed=%d", seed)) seed = 1;
+    if (!$value$plusargs("stall=%d", stall)) stall = 64;
+    if (!$value$plusargs("timeout=%d", timeout)) timeout = @timeout@;
+    dump = 0;
+    if ($test$plusargs("dump")) dump = 1;
+    if ($test$plusargs("vcd")) begin
+      $dumpfile("@stage@.vcd");
+      $dumpvars(0, @stage@_tb);
+    end
+)";
+
+constexpr const char* kLoad = R"(    @port@_random = shuffled(32'd@salt@ ^ (seed << 8));
+    $readmemh("@file@", @port@_words);
+    @port@_sum = {@width@{1'b0}};
+    for (i = 0; i < @tokens@; i = i + 1) @port@_sum = @rotated@ ^ @port@_words[i];
+    if (@port@_sum !== @check@) begin
+      $display("FAIL @stage@: @file@ is not here, or not the one that was written with this test bench");
+      $fatal(1);
+    end
+)";
+
+constexpr const char* kDump = R"(    if (dump != 0) @port@_file = $fopen("@stream@.dump", "w");
+)";
+
+constexpr const char* kProgress = R"(  end
+
+  always @(posedge clk) begin
+    cycle <= cycle + 1;
+    if (cycle >= 16) rst <= 1'b0;
+    if (rst || @moves@) quiet <= 0;
+    else quiet <= quiet + 1;
+    if (quiet > @drain@ && @complete@) begin
+@verdict@    end
+    if (faults >= 1000) begin
+      $display("FAIL @stage@: the handshake was broken 1000 times, in cycle %0d", cycle);
+      $fatal(1);
+    end
+    if (quiet > timeout) begin
+@stalled@      $display("FAIL @stage@: nothing has moved for %0d cycles, in cycle %0d", quiet, cycle);
+      $fatal(1);
+    end
+  end
+endmodule
+)";
+
+std::string all(const VectorManifest& manifest, const char* text,
+                const std::function<bool(const VectorStream&)>& which, const std::string& between = "") {
+  std::string out;
+  for (const VectorStream& stream : manifest.streams) {
+    if (!which(stream)) continue;
+    if (!out.empty()) out += between;
+    out += filled(filled(text, words_of(manifest, stream)), {{"port", stream.port}});
+  }
+  return out;
+}
+
+bool any(const VectorStream&) { return true; }
+bool input(const VectorStream& stream) { return stream.is_input; }
+bool output(const VectorStream& stream) { return !stream.is_input; }
+
+// "frame %0d, row %0d, column %0d", and what stands for them.
+Replacements place_of(const VectorStream& stream) {
+  const std::string taken = stream.port + "_taken";
+  if (stream.shape.row_tokens == 0)
+    return {{"place", "token %0d of frame %0d"},
+            {"arguments",
+             fmt::format("{} % {}, {} / {}", taken, stream.frame_tokens, taken, stream.frame_tokens)}};
+  const std::uint64_t group = stream.shape.tokens_per_pixel;
+  std::string place = "token %0d (frame %0d, row %0d, column %0d";
+  std::string arguments = fmt::format(
+      "{0}, {0} / {1}, {0} % {1} / {2}, {0} % {2}{3}", taken, stream.frame_tokens, stream.shape.row_tokens,
+      group > 1 ? fmt::format(" / {}", group) : fmt::format(" * {}", stream.shape.pixels_per_token));
+  if (group > 1) {
+    place += ", group %0d";
+    arguments += fmt::format(", {} % {}", taken, group);
+  }
+  return {{"place", place + ")"}, {"arguments", arguments}};
+}
+
+std::string outputs(const VectorManifest& manifest) {
+  std::string out;
+  for (const VectorStream& stream : manifest.streams) {
+    if (stream.is_input) continue;
+    out += filled(filled(kOutput, words_of(manifest, stream)), place_of(stream));
+  }
+  return out;
+}
+
+std::string loads(const VectorManifest& manifest) {
+  std::string out;
+  unsigned salt = 0x2545F491;
+  for (const VectorStream& stream : manifest.streams) {
+    out += filled(filled(filled(kLoad, words_of(manifest, stream)), {{"port", stream.port}}),
+                  {{"salt", std::to_string(salt)}});
+    salt = salt * 1664525U + 1013904223U;
+  }
+  return out;
+}
+
+std::string fields_text(const VectorStream& stream) {
+  constexpr std::size_t kShown = 8;
+  const std::vector<TokenField>& fields = stream.shape.format.all();
+  std::string text;
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    if (fields.size() > kShown && i == kShown / 2) {
+      text += "  //   ...\n";
+      i = fields.size() - 1;
+    }
+    text += fmt::format("  //   [{}:{}] {}{}\n", fields[i].low + fields[i].width - 1, fields[i].low,
+                        fields[i].name, fields[i].is_signed ? ", signed" : "");
+  }
+  return text;
+}
+
+constexpr std::uint64_t kDrain = 2000;  // cycles in which nothing more may come out
+
+}  // namespace
+
+std::string test_bench(const VectorManifest& manifest) {
+  // A frame's rows are looked ahead at most, all of it before a second pass.
+  std::uint64_t frame = 0;
+  for (const VectorStream& stream : manifest.streams) frame = std::max(frame, stream.frame_tokens);
+  const Replacements facts{{"stage", manifest.stage},
+                           {"program", manifest.program},
+                           {"frames", std::to_string(manifest.frames)},
+                           {"s", manifest.frames == 1 ? "" : "s"},
+                           {"width", std::to_string(manifest.width)},
+                           {"height", std::to_string(manifest.height)},
+                           {"drain", std::to_string(kDrain)},
+                           {"timeout", std::to_string(std::max<std::uint64_t>(100000, 4 * frame))}};
+  const auto end = filled(
+      kProgress,
+      {{"moves", all(manifest, "(@port@_valid === 1'b1 && @port@_ready === 1'b1)", any, " || ")},
+       {"complete", all(manifest, "@port@_taken >= @tokens@", output, " && ")},
+       {"verdict",
+        all(manifest,
+            "      if (@port@_wrong != 0) $display(\"@stream@: %0d of @tokens@ tokens differ\", "
+            "@port@_wrong);\n"
+            "      if (@port@_taken > @tokens@) $display(\"@stream@: %0d tokens came out, expected "
+            "@tokens@\", "
+            "@port@_taken);\n",
+            output) +
+            all(manifest,
+                "      if (@port@_taken != @tokens@) $display(\"@stream@: the circuit took %0d of @tokens@ "
+                "tokens\", @port@_taken);\n",
+                input) +
+            "      if (faults == 0 && " +
+            all(manifest, "@port@_wrong == 0 && @port@_taken == @tokens@", output, " && ") + " && " +
+            all(manifest, "@port@_taken == @tokens@", input, " && ") +
+            ") begin\n        $display(\"PASS @stage@: " +
+            all(manifest, "@tokens@ tokens of @stream@", output, ", ") +
+            ", in %0d cycles\", cycle - quiet);\n        $finish;\n      end else begin\n"
+            "        $display(\"FAIL @stage@: it differs from the model, in %0d cycles\", cycle - quiet);\n"
+            "        $fatal(1);\n      end\n"},
+       {"stalled",
+        all(manifest,
+            "      $display(\"@stream@: the circuit took %0d of @tokens@ tokens; @port@_valid is %b, "
+            "@port@_ready is %b\", @port@_taken, @port@_valid, @port@_ready);\n",
+            input) +
+            all(manifest,
+                "      $display(\"@stream@: %0d of @tokens@ tokens came out, %0d of them wrong; @port@_valid "
+                "is "
+                "%b, @port@_ready is %b\", @port@_taken, @port@_wrong, @port@_valid, @port@_ready);\n",
+                output)}});
+  const auto begin = filled(
+      kBegin, {{"connections", all(manifest,
+                                   ",\n    .@port@_data(@port@_data),\n    .@port@_valid(@port@_valid),\n"
+                                   "    .@port@_first(@port@_first),\n    .@port@_last(@port@_last),\n"
+                                   "    .@port@_ready(@port@_ready)",
+                                   input) +
+                                   all(manifest,
+                                       ",\n    .@port@_data(@port@_data),\n"
+                                       "    .@port@_valid(@port@_valid),\n    .@port@_ready(@port@_ready)",
+                                       output)}});
+  return filled(kHead + all(manifest, kInput, input) + outputs(manifest) + begin + loads(manifest) +
+                    all(manifest, kDump, output) + end,
+                facts);
+}
+
+std::string circuit_stub(const VectorManifest& manifest) {
+  std::string text = fmt::format(
+      "// The ports of a circuit in the place of the stage {0}, as {0}_tb.sv binds them; nothing is behind "
+      "them.\n"
+      "// A token is taken in a cycle in which valid and ready are both 1 at the rising edge of clk. rst is "
+      "high, and synchronous.\n"
+      "// first: the first token of a frame; last: the last one of a row. The model: {1} cycle{2} from one "
+      "token to the next, {3} from\n"
+      "// reading to writing, {4} tokens of pixels read beyond the one written.\n"
+      "`timescale 1ns / 1ps\n`default_nettype none\n\nmodule {0} (\n  input wire clk,\n  input wire rst",
+      manifest.stage, manifest.interval, manifest.interval == 1 ? "" : "s", manifest.latency,
+      manifest.look_ahead);
+  for (const VectorStream& stream : manifest.streams) {
+    text += ",\n\n  // " + stream.name;
+    for (const std::string& other : stream.also) text += ", " + other;
+    text += "\n" + fields_text(stream);
+    const char* const forward = stream.is_input ? "input" : "output";
+    const char* const backward = stream.is_input ? "output" : "input";
+    text += fmt::format("  {} wire {} {}_data,\n  {} wire {}_valid,\n", forward, range(stream), stream.port,
+                        forward, stream.port);
+    if (stream.is_input)
+      text += fmt::format("  input wire {0}_first,\n  input wire {0}_last,\n", stream.port);
+    text += fmt::format("  {} wire {}_ready", backward, stream.port);
+  }
+  text += "\n);\n";
+  for (const VectorStream& stream : manifest.streams) {
+    if (stream.is_input) {
+      text += fmt::format("  assign {}_ready = 1'b0;\n", stream.port);
+    } else {
+      text += fmt::format("  assign {0}_data = {1}'d0;\n  assign {0}_valid = 1'b0;\n", stream.port,
+                          stream.shape.format.width().count());
+    }
+  }
+  return text + "endmodule\n";
+}
+
+}  // namespace parallax

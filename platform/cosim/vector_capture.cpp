@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "platform/cosim/vector_capture.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+#include "platform/config/nearest_name.hpp"
+#include "platform/results/version.hpp"
+#include "tlm/error.hpp"
+
+namespace parallax {
+namespace {
+
+// The interval in which a stage spends most of its firings that move tokens.
+std::uint64_t usual_interval(const Schedule& schedule) {
+  std::map<std::uint64_t, std::uint64_t> firings;
+  for (const Schedule::Segment& segment : schedule.segments()) {
+    for (std::uint32_t i = 0; i < segment.phase_count; ++i) {
+      const Phase& phase = schedule.phases()[segment.first_phase + i];
+      if (phase.consume != 0 || phase.produce != 0) firings[phase.interval] += segment.repeat * phase.count;
+    }
+  }
+  const auto most = std::max_element(firings.begin(), firings.end(),
+                                     [](const auto& a, const auto& b) { return a.second < b.second; });
+  return most == firings.end() ? 1 : most->first;
+}
+
+}  // namespace
+
+// Lines on their way to a file.
+class VectorCapture::Lines {
+ public:
+  explicit Lines(OutputFile& file) : file_(file) { text_.reserve(kPieceBytes + kPieceBytes / 4); }
+
+  std::string& line() { return text_; }
+  void line_ends() {
+    text_ += '\n';
+    if (text_.size() >= kPieceBytes) flush();
+  }
+  void flush() {
+    file_.write(text_);
+    text_.clear();
+  }
+
+ private:
+  static constexpr std::size_t kPieceBytes = 1u << 20;  // written at once
+
+  OutputFile& file_;
+  std::string text_;
+};
+
+struct VectorCapture::Port {
+  Port(const TokenPort& port, bool dates, OutputFolder& folder)
+      : width(port.shape.format.width().size()),
+        words(folder.open(port.streams.front() + ".memh")),
+        check(width) {
+    if (dates) times.emplace(folder.open(port.streams.front() + ".dates"));
+    stream.name = port.streams.front();
+    stream.also.assign(port.streams.begin() + 1, port.streams.end());
+    stream.port = port.name;
+    stream.is_input = port.is_input;
+    stream.file = stream.name + ".memh";
+    if (dates) stream.dates_file = stream.name + ".dates";
+    stream.shape = port.shape;
+    tap = port.tap([this](const WiredToken& token) { take(token); });
+  }
+
+  void take(const WiredToken& token) {
+    append_hex(words.line(), token.bits, width);
+    words.line_ends();
+    check.add(token.bits);
+    ++stream.tokens;
+    if (!times) return;
+    times->line() += std::to_string(token.date.count());
+    times->line_ends();
+  }
+
+  VectorStream stream;
+  std::size_t width;
+  Lines words;
+  std::optional<Lines> times;
+  VectorCheck check;
+  std::unique_ptr<TokenTap> tap;
+};
+
+void check_vectors(const Machine& machine, const std::string& stage) {
+  const std::vector<std::string> all = machine.pipeline().slots();
+  if (std::find(all.begin(), all.end(), stage) == all.end()) {
+    throw UserError(fmt::format("--stage is '{}'; the nearest of this machine's stages is {}", excerpt(stage),
+                                nearest_name(stage, all)));
+  }
+  if (machine.config().matching.parallel_rows > 1) {
+    throw UserError(
+        "matching.parallel_rows is more than 1: the model has the values of such tokens in the order of "
+        "rows, "
+        "not as they lie on the wires; vectors need 1");
+  }
+}
+
+std::set<std::string> vector_file_names(const Machine& machine, const std::string& stage, bool dates) {
+  std::set<std::string> names{VectorManifest::kFile, stage + "_tb.sv", stage + "_stub.sv"};
+  for (const TokenPort& port : machine.pipeline().ports(stage)) {
+    names.insert(port.streams.front() + ".memh");
+    if (dates) names.insert(port.streams.front() + ".dates");
+  }
+  return names;
+}
+
+VectorCapture::VectorCapture(const Machine& machine, const std::string& stage, bool dates,
+                             OutputFolder& folder)
+    : machine_(machine) {
+  const Pipeline& pipeline = machine.pipeline();
+  manifest_.program = fmt::format("parallax {} ({})", version(), revision());
+  manifest_.stage = stage;
+  manifest_.width = machine.input().width;
+  manifest_.height = machine.input().height;
+  manifest_.tile_width = machine.tiles().width;
+  for (const Tile& tile : machine.tiles().tiles) manifest_.tile_begins.push_back(tile.begin);
+  manifest_.clock_hz = machine.config().clocks.core_hz;
+  const SlotModule& slot = pipeline.slot(stage);
+  manifest_.interval = usual_interval(slot.stage->schedule());
+  manifest_.latency = slot.latency;
+  manifest_.look_ahead = slot.look_ahead;
+  for (const TokenPort& port : pipeline.ports(stage))
+    ports_.push_back(std::make_unique<Port>(port, dates, folder));
+}
+
+VectorCapture::~VectorCapture() = default;
+
+VectorManifest VectorCapture::finish(std::int64_t frames) {
+  machine_.dataflow().bring_up_to_date();
+  manifest_.frames = frames;
+  for (const auto& port : ports_) {
+    port->words.flush();
+    if (port->times) port->times->flush();
+    if (frames < 1 || port->stream.tokens % static_cast<std::uint64_t>(frames) != 0) {
+      throw std::logic_error(
+          fmt::format("{} tokens at {} in {} frames", port->stream.tokens, port->stream.name, frames));
+    }
+    port->stream.frame_tokens = port->stream.tokens / static_cast<std::uint64_t>(frames);
+    port->stream.check = port->check.text();
+    manifest_.streams.push_back(port->stream);
+  }
+  return manifest_;
+}
+
+}  // namespace parallax

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "platform/cosim/vector_manifest.hpp"
+#include "platform/machine/machine.hpp"
+#include "platform/machine/token_port.hpp"
+#include "platform/results/output_folder.hpp"
+
+namespace parallax {
+
+/// Writes down the tokens that pass the ports of a stage, from before the simulation starts on.
+class VectorCapture {
+ public:
+  /// After check_vectors(). `dates`: also when each token passed. All must outlive the capture.
+  VectorCapture(const Machine& machine, const std::string& stage, bool dates, OutputFolder& folder);
+  ~VectorCapture();
+
+  /// After the simulation, of which `frames` frames had images: completes the files.
+  VectorManifest finish(std::int64_t frames);
+
+ private:
+  class Lines;
+  struct Port;
+
+  const Machine& machine_;
+  VectorManifest manifest_;
+  std::vector<std::unique_ptr<Port>> ports_;
+};
+
+/// Throws UserError when the pipeline has no such stage, naming the nearest, or when its tokens are not known
+/// as they lie on wires.
+void check_vectors(const Machine& machine, const std::string& stage);
+
+/// How the files of vectors end, but for the manifest.
+inline constexpr std::array kVectorEndings{".memh", ".dates", "_tb.sv", "_stub.sv"};
+
+/// The files of a stage's vectors, with its test bench.
+std::set<std::string> vector_file_names(const Machine& machine, const std::string& stage, bool dates);
+
+}  // namespace parallax

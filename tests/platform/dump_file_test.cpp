@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+// Dumps as simulators and scripts write them, and what is said of damaged ones.
+#include "platform/cosim/dump_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include "modules/token_formats.hpp"
+#include "tests/platform/error_of.hpp"
+#include "tests/platform/temporary_folder.hpp"
+
+namespace parallax {
+namespace dump_file_test {
+
+VectorStream stream_of(const TokenFormat& format) {
+  VectorStream stream;
+  stream.name = "left_codes";
+  stream.port = "out_left";
+  stream.shape = TokenShape(format);
+  return stream;
+}
+
+class DumpFile : public ::testing::Test {
+ protected:
+  Dump read(const std::string& text, const TokenFormat& format, const DumpSignals& signals = {}) const {
+    return read_dump(folder_.write("dump", text), stream_of(format), signals);
+  }
+  std::vector<std::uint64_t> words(const std::string& text, std::size_t bits = 12) const {
+    const Dump dump = read(text, census_code_format(bits));
+    std::vector<std::uint64_t> out;
+    for (std::uint64_t i = 0; i < dump.words.size(); ++i) {
+      EXPECT_FALSE(dump.words.unknown(i)) << i;
+      out.push_back(dump.words.raw(i, census_code_format(bits).all().front()));
+    }
+    return out;
+  }
+  /// The line, without the folder.
+  std::string error(const std::string& text, const TokenFormat& format = census_code_format(12)) const {
+    const std::string line = error_of([&] { read(text, format); });
+    const std::string path = folder_ / "dump";
+    return line.rfind(path, 0) == 0 ? line.substr(path.size()) : line;
+  }
+
+  TemporaryFolder folder_;
+};
+
+using Words = std::vector<std::uint64_t>;
+
+TEST_F(DumpFile, TheTextOfReadmemh) {
+  EXPECT_EQ(words("001\n0a2\nFFF\n"), (Words{1, 0xA2, 0xFFF}));
+  EXPECT_EQ(words("1 a2\tf_f_f"), (Words{1, 0xA2, 0xFFF}));
+  EXPECT_EQ(words("// 0x00000000\n@0 001\n/* two\nlines */ 002 // end\n@2\n003\r\n"), (Words{1, 2, 3}));
+  EXPECT_EQ(words("0001\n"), (Words{1}));
+  EXPECT_EQ(words(""), Words{});
+  const Dump dump = read("0x1\nzzz\n", census_code_format(12));
+  EXPECT_TRUE(dump.words.unknown(0));
+  EXPECT_TRUE(dump.words.unknown(1));
+  EXPECT_EQ(dump.words.raw(0, {"", 0, 4}), 1U);
+  EXPECT_EQ(read("1", census_code_format(63)).words.raw(0, {"", 0, 63}), 1U);
+}
+
+TEST_F(DumpFile, DamagedText) {
+  EXPECT_EQ(error("001\n1000\n"), ", line 2: '1000' has more than 12 bits");
+  EXPECT_EQ(error("001\nhello\n"), ", line 2: 'hello' is no hexadecimal number");
+  EXPECT_EQ(error("001\n@7 2\n"),
+            ", line 2: '@7' is not the address of the next word, @1: the words of a dump follow each other "
+            "from 0 on");
+  EXPECT_EQ(error("001 /* no end"), ", line 1: a comment /* has no end");
+  EXPECT_EQ(error("001 /2"), ", line 1: '/' begins neither a word nor a comment");
+}
+
+TEST_F(DumpFile, ACsvHasAColumnForEachFieldOrOneOfWords) {
+  const TokenFormat pair = offset_pair_format(12);
+  const Dump dump = read("cycle,left_dx,left_dy,right_dx,right_dy\n7,-1,2,0x7ff,-2048\n 9, 0,0,0,0\n", pair);
+  ASSERT_EQ(dump.words.size(), 2U);
+  EXPECT_EQ(dump.words.value(0, pair.all()[0]), -1);
+  EXPECT_EQ(dump.words.value(0, pair.all()[2]), 2047);
+  EXPECT_EQ(dump.words.value(0, pair.all()[3]), -2048);
+  EXPECT_EQ(dump.cycles, (std::vector<std::int64_t>{7, 9}));
+  EXPECT_EQ(words("data\n0x0a2\nfff\n"), (Words{0xA2, 0xFFF}));
+  EXPECT_EQ(words("row,column,code\n0,0,12\n0,1,0xfff\n"), (Words{12, 0xFFF}));
+  EXPECT_TRUE(read("code\nx\n", census_code_format(12)).words.unknown(0));
+}
+
+TEST_F(DumpFile, DamagedCsv) {
+  EXPECT_EQ(
+      error("row,value\n0,1\n"),
+      ", line 1: no column code: the first line names the columns, one for each field of left_codes, or data "
+      "for whole words");
+  EXPECT_EQ(error("row,code\n0,1,2\n"), ", line 2: 3 columns in place of 2");
+  EXPECT_EQ(error("row,code\n0,4096\n"), ", line 2: code = 4096 has no place in 12 bits");
+  EXPECT_EQ(error("row,code\n0,many\n"), ", line 2: 'many' is no whole number");
+  EXPECT_EQ(error("row,data\n0,\n"), ", line 2: no data");
+}
+
+constexpr const char* kHead =
+    "$timescale 1ns $end\n$scope module bench $end\n"
+    "$var wire 1 ! clk $end\n$var wire 12 # out_left_data [11:0] $end\n"
+    "$var wire 1 $ out_left_valid $end\n$var wire 1 % out_left_ready $end\n"
+    "$scope module dut $end\n$var wire 12 & out_left_data [11:0] $end\n$upscope $end\n"
+    "$upscope $end\n$enddefinitions $end\n";
+
+// What changes at an edge is there after it: the token is what lay there before.
+TEST_F(DumpFile, WavesAreSampledBeforeTheEdge) {
+  const Dump dump = read(std::string(kHead) +
+                             "#0\n$dumpvars\n0!\nb0 #\n0$\n1%\n$end\n"
+                             "#5\n1!\nb101 #\n1$\n#10\n0!\n"   // nothing was valid before this edge
+                             "#15\n1!\nb110 #\n#20\n0!\n"      // 5
+                             "#25\n1!\n0%\nb111 #\n#30\n0!\n"  // 6
+                             "#35\n1!\n1%\n#40\n0!\n"          // not ready
+                             "#45\n1!\nbx1 #\n#50\n0!\n"       // 7
+                             "#55\n1!\n",                      // unknown
+                         census_code_format(12));
+  ASSERT_EQ(dump.words.size(), 4U);
+  const TokenField code = census_code_format(12).all().front();
+  EXPECT_EQ(dump.words.raw(0, code), 5U);
+  EXPECT_EQ(dump.words.raw(1, code), 6U);
+  EXPECT_EQ(dump.words.raw(2, code), 7U);
+  EXPECT_TRUE(dump.words.unknown(3));
+  EXPECT_EQ(dump.cycles, (std::vector<std::int64_t>{1, 2, 4, 5}));
+}
+
+TEST_F(DumpFile, SignalsOfOtherNames) {
+  const std::string waves =
+      "$var wire 1 ! ck $end\n$var wire 12 # d $end\n$var wire 1 $ v $end\n$enddefinitions $end\n"
+      "#0 0! b11 # 1$ #5 1!";
+  const Dump dump = read(waves, census_code_format(12), {"d", "v", "", "ck"});
+  EXPECT_EQ(dump.words.size(), 1U);
+  EXPECT_EQ(
+      error(waves),
+      ": no signal out_left_data for data of left_codes; the nearest is d; --signals data=NAME names another "
+      "one");
+}
+
+TEST_F(DumpFile, DamagedWaves) {
+  EXPECT_EQ(error("$var wire 1"), ", line 1: a $var without width, identifier and name");
+  EXPECT_EQ(error("$scope module x"), ", line 1: the file ends within a command, without $end");
+  EXPECT_EQ(error("$timescale 1ns $end\n"), ", line 2: the file ends before $enddefinitions");
+  EXPECT_EQ(error("$timescale 1ns $end\n12\n"), ", line 2: '12' where a command such as $var is expected");
+  EXPECT_EQ(error("$enddefinitions $end\n"), ": no signals in this VCD");
+  EXPECT_EQ(error(kHead, census_code_format(13)), ": bench.out_left_data has 12 bits, left_codes has 13");
+  EXPECT_EQ(error(std::string(kHead) + "#0\nb1"), ", line 13: the file ends within a value");
+  EXPECT_EQ(error(std::string(kHead) + "#0\n1\n"), ", line 13: '1' is no change of a value");
+}
+
+}  // namespace dump_file_test
+}  // namespace parallax

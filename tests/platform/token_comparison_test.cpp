@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a comparison of a dump with vectors says, on dumps that were altered in known ways.
+#include "platform/cosim/token_comparison.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+#include <random>
+
+#include "modules/token_formats.hpp"
+
+namespace parallax {
+namespace token_comparison_test {
+
+using Words = std::vector<std::vector<std::uint64_t>>;  // the fields of each token
+
+VectorManifest image_manifest(const TokenShape& shape, int width, int height, std::int64_t frames) {
+  VectorManifest manifest;
+  manifest.stage = "census";
+  manifest.width = manifest.tile_width = width;
+  manifest.height = height;
+  manifest.tile_begins = {0};
+  manifest.frames = frames;
+  VectorStream stream;
+  stream.name = "left_codes";
+  stream.port = "out_left";
+  stream.shape = shape;
+  stream.frame_tokens = shape.row_tokens * static_cast<std::uint64_t>(height);
+  stream.tokens = stream.frame_tokens * static_cast<std::uint64_t>(frames);
+  manifest.streams.push_back(stream);
+  return manifest;
+}
+
+TokenShape codes(int width, std::size_t bits) {
+  TokenShape shape(census_code_format(bits));
+  shape.row_tokens = static_cast<std::uint64_t>(width);
+  return shape;
+}
+
+TokenShape costs(int width, std::uint64_t groups, std::size_t parallelism) {
+  TokenShape shape(cost_group_format(parallelism, 9));
+  shape.row_tokens = static_cast<std::uint64_t>(width) * groups;
+  shape.tokens_per_pixel = groups;
+  shape.first_disparity = 10;
+  return shape;
+}
+
+TokenWords packed(const VectorStream& stream, const Words& words) {
+  TokenWords out(stream.shape.format.width().size());
+  for (const std::vector<std::uint64_t>& word : words) {
+    out.append();
+    for (std::size_t i = 0; i < word.size(); ++i) out.set(stream.shape.format.all()[i], word[i]);
+  }
+  return out;
+}
+
+class AlteredDump : public ::testing::Test {
+ protected:
+  void make(const TokenShape& shape, int width, int height, std::int64_t frames = 1) {
+    manifest_ = image_manifest(shape, width, height, frames);
+    std::mt19937 random(7);
+    words_.clear();
+    for (std::uint64_t token = 0; token < stream().tokens; ++token) {
+      std::vector<std::uint64_t> word;
+      for (const TokenField& field : shape.format.all())
+        word.push_back(random() & ((std::uint64_t{1} << field.width) - 1));
+      words_.push_back(word);
+    }
+  }
+  const VectorStream& stream() const { return manifest_.streams.front(); }
+
+  TokenComparison compare(const Words& got) const {
+    return compare_tokens(manifest_, stream(), packed(stream(), words_), {packed(stream(), got), {}});
+  }
+  /// The first pattern's name where `change` alters the values of a pixel's fields.
+  using Change = std::function<std::uint64_t(const ValuePlace& place, std::uint64_t value)>;
+  std::string pattern(const Change& change) const {
+    Words got = words_;
+    for (std::uint64_t token = 0; token < got.size(); ++token) {
+      for (std::size_t field = 0; field < got[token].size(); ++field) {
+        const std::size_t width = stream().shape.format.all()[field].width;
+        got[token][field] = change(manifest_.place(stream(), token, field), got[token][field]) &
+                            ((std::uint64_t{1} << width) - 1);
+      }
+    }
+    return first_pattern(got);
+  }
+  std::string first_pattern(const Words& got) const {
+    const TokenComparison comparison = compare(got);
+    return comparison.patterns.empty() ? "" : comparison.patterns.front().name;
+  }
+  Words shifted(std::int64_t late) const {
+    Words got = words_;
+    for (std::int64_t i = 0; i < static_cast<std::int64_t>(got.size()); ++i) {
+      const std::int64_t from = i - late;
+      got[i] = from < 0 || from >= static_cast<std::int64_t>(got.size())
+                   ? std::vector<std::uint64_t>(got[i].size())
+                   : words_[from];
+    }
+    return got;
+  }
+
+  VectorManifest manifest_;
+  Words words_;
+};
+
+TEST_F(AlteredDump, TheFirstDifferenceIsPlaced) {
+  make(codes(40, 24), 40, 30, 2);
+  Words got = words_;
+  got[1200 + 7 * 40 + 3][0] ^= 1;
+  got[1200 + 9 * 40 + 5][0] ^= 2;
+  const TokenComparison comparison = compare(got);
+  ASSERT_TRUE(comparison.first.has_value());
+  EXPECT_EQ(comparison.first->place.frame, 1);
+  EXPECT_EQ(comparison.first->place.row, 7);
+  EXPECT_EQ(comparison.first->place.column, 3);
+  EXPECT_EQ(comparison.first->place.disparity, -1);
+  EXPECT_EQ(comparison.first->expected, fmt::format("0x{:x}", words_[1483][0]));
+  EXPECT_EQ(comparison.different_tokens, 2U);
+  EXPECT_EQ(comparison.rows, (std::map<std::int64_t, std::uint64_t>{{7, 1}, {9, 1}}));
+  EXPECT_EQ(comparison.columns, (std::map<std::int64_t, std::uint64_t>{{3, 1}, {5, 1}}));
+  EXPECT_TRUE(compare(words_).equal());
+  EXPECT_EQ(text(compare(words_)), "left_codes: equal, 2400 tokens\n");
+}
+
+TEST_F(AlteredDump, ACostIsPlacedByItsDisparity) {
+  make(costs(8, 4, 16), 8, 6);
+  Words got = words_;
+  got[(5 * 8 + 2) * 4 + 3][15] ^= 1;
+  const TokenComparison comparison = compare(got);
+  EXPECT_EQ(comparison.first->place.row, 5);
+  EXPECT_EQ(comparison.first->place.column, 2);
+  EXPECT_EQ(comparison.first->place.disparity, 10 + 63);
+  EXPECT_EQ(comparison.patterns.front().name, "only_last_disparity");
+  const std::string expected = std::to_string(words_[171][15]), other = std::to_string(words_[171][15] ^ 1);
+  EXPECT_EQ(text(comparison),
+            "left_codes: 1 of 192 tokens differ\n"
+            "first difference    frame 0, row 5, column 2, disparity 73, cost_15 of token 171: expected " +
+                expected + ", got " + other +
+                "\n"
+                "pattern             only disparity 73 differs, the last one\n"
+                "where               row 5\n"
+                "                    column 2\n"
+                "                    disparity 73\n");
+}
+
+TEST_F(AlteredDump, SeveralPixelsATokenAreColumnsOfTheirOwn) {
+  TokenShape shape(gray_format().several(4));
+  shape.row_tokens = 10;
+  shape.pixels_per_token = 4;
+  make(shape, 40, 6);
+  Words got = words_;
+  got[2 * 10 + 3][1] ^= 1;
+  EXPECT_EQ(compare(got).first->place.row, 2);
+  EXPECT_EQ(compare(got).first->place.column, 13);
+}
+
+TEST_F(AlteredDump, APartOfTheImage) {
+  make(codes(64, 24), 64, 48);
+  const auto is_in = [](auto where) {
+    return [where](const ValuePlace& place, std::uint64_t value) {
+      return where(place.column, place.row) ? value + 1 + static_cast<std::uint64_t>(place.column % 3)
+                                            : value;
+    };
+  };
+  EXPECT_EQ(pattern(is_in([](auto, auto y) { return y == 0; })), "only_first_rows");
+  EXPECT_EQ(pattern(is_in([](auto, auto y) { return y >= 46; })), "only_last_rows");
+  EXPECT_EQ(pattern(is_in([](auto x, auto) { return x < 2; })), "only_first_columns");
+  EXPECT_EQ(pattern(is_in([](auto x, auto) { return x == 63; })), "only_last_columns");
+  EXPECT_EQ(pattern(is_in([](auto x, auto y) { return x < 2 || y < 2 || x > 61 || y > 45; })), "only_rim");
+  EXPECT_EQ(pattern(is_in([](auto, auto y) { return y > 0; })), "rows_after_first");
+  EXPECT_EQ(pattern(is_in([](auto x, auto) { return x > 0; })), "columns_after_first");
+  EXPECT_EQ(pattern(is_in([](auto x, auto y) { return (x * 7 + y * 13) % 50 == 3; })), "none");
+}
+
+TEST_F(AlteredDump, AnotherFrameOrTile) {
+  make(codes(32, 24), 32, 20, 3);
+  const auto later = [](const ValuePlace& place, std::uint64_t value) {
+    return place.frame > 0 ? value * 5 + 1 : value;
+  };
+  EXPECT_EQ(pattern(later), "frames_after_first");
+  manifest_.width = 56;
+  manifest_.tile_begins = {0, 24};
+  manifest_.frames = 1;
+  manifest_.streams.front().frame_tokens = words_.size();
+  manifest_.height = 30;
+  const auto second = [](const ValuePlace& place, std::uint64_t value) {
+    return place.tile == 1 ? value * 5 + 1 : value;
+  };
+  EXPECT_EQ(pattern(second), "one_tile");
+}
+
+TEST_F(AlteredDump, ValuesInAnotherShape) {
+  make(codes(40, 24), 40, 30);
+  const auto each = [this](auto change) {
+    return pattern([change](const ValuePlace&, std::uint64_t value) { return change(value); });
+  };
+  EXPECT_EQ(each([](auto v) { return ~v; }), "inverted");
+  EXPECT_EQ(each([](auto v) {
+              std::uint64_t out = 0;
+              for (int i = 0; i < 24; ++i) out |= (v >> i & 1U) << (23 - i);
+              return out;
+            }),
+            "bit_order");
+  EXPECT_EQ(each([](auto v) { return (v & 0xFF) << 16 | (v & 0xFF00) | v >> 16; }), "byte_order");
+  EXPECT_EQ(each([](auto v) { return v + 3; }), "constant_offset");
+  EXPECT_EQ(each([](auto v) { return v - 1; }), "constant_offset");
+  EXPECT_EQ(each([](auto v) { return v & 0x3FFF; }), "top_bits_lost");
+  EXPECT_EQ(each([](auto v) { return std::min<std::uint64_t>(v, 0x90000); }), "saturated");
+  EXPECT_EQ(each([](auto v) { return ~v & 0xF0F0F0 & (v * 77); }), "inverted_comparison");
+  EXPECT_EQ(each([](auto v) { return v | 0x400; }), "one_bit");
+  EXPECT_EQ(each([](auto) { return std::uint64_t{5}; }), "constant");
+}
+
+TEST_F(AlteredDump, FieldsInTheOtherOrder) {
+  make(costs(8, 2, 16), 8, 30);
+  Words got = words_;
+  for (auto& word : got) std::reverse(word.begin(), word.end());
+  EXPECT_EQ(first_pattern(got), "field_order");
+  got = words_;
+  for (auto& word : got) word[4] = word[4] * 3 + 1;
+  EXPECT_EQ(first_pattern(got), "one_field");
+  got = words_;
+  for (std::size_t i = 1; i < got.size(); i += 2) got[i][i / 2 % 16] ^= i % 255 + 1;
+  EXPECT_EQ(first_pattern(got), "one_group");
+}
+
+TEST_F(AlteredDump, TokensLostDoubledOrLate) {
+  make(codes(40, 24), 40, 30);
+  EXPECT_EQ(first_pattern(shifted(1)), "one_column_late");
+  EXPECT_EQ(first_pattern(shifted(-1)), "one_column_early");
+  EXPECT_EQ(first_pattern(shifted(40)), "one_row_late");
+  EXPECT_EQ(first_pattern(shifted(-40)), "one_row_early");
+  EXPECT_EQ(first_pattern(shifted(17)), "constant_latency");
+  Words in_rows = words_;
+  for (std::size_t i = 0; i < in_rows.size(); ++i) in_rows[i] = i % 40 == 0 ? words_[3] : words_[i - 1];
+  EXPECT_EQ(first_pattern(in_rows), "one_column_late");
+
+  Words lost = words_;
+  lost.erase(lost.begin() + 500);
+  EXPECT_EQ(first_pattern(lost), "token_lost");
+  EXPECT_EQ(compare(lost).patterns.front().text,
+            "token 500 (frame 0, row 12, column 20) is lost, all others are there");
+  lost.push_back({0});
+  EXPECT_EQ(first_pattern(lost), "token_lost");
+  lost = words_;
+  lost.erase(lost.begin(), lost.begin() + 7);
+  EXPECT_EQ(first_pattern(lost), "tokens_lost");
+  lost = words_;
+  for (const std::size_t at : {900, 600, 300}) lost.erase(lost.begin() + static_cast<std::ptrdiff_t>(at));
+  EXPECT_EQ(first_pattern(lost), "tokens_lost");
+  EXPECT_EQ(compare(lost).patterns.front().text,
+            "3 tokens are lost, the first one token 300 (frame 0, row 7, column 20), all others are there");
+  Words twice = words_;
+  twice.insert(twice.begin() + 500, words_[499]);
+  EXPECT_EQ(first_pattern(twice), "token_doubled");
+  Words more = words_;
+  more.insert(more.begin() + 500, 3, {77});
+  EXPECT_EQ(first_pattern(more), "tokens_inserted");
+  Words cut(words_.begin(), words_.begin() + 700);
+  EXPECT_EQ(first_pattern(cut), "truncated");
+  EXPECT_EQ(text(compare(cut)).substr(0, 65),
+            "left_codes: 700 tokens in place of 1200, 500 too few\nleft_codes: ");
+  Words longer = words_;
+  longer.push_back({1});
+  EXPECT_EQ(first_pattern(longer), "surplus");
+  EXPECT_EQ(first_pattern({}), "truncated");
+}
+
+}  // namespace token_comparison_test
+}  // namespace parallax
