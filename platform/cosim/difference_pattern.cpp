@@ -310,11 +310,19 @@ class PatternSearch {
     }
   }
 
+  // Of millions of values most lie where the one before did.
+  template <class T>
+  static void note(std::set<T>& all, T& last, T value) {
+    if (!all.empty() && value == last) return;
+    last = value;
+    all.insert(value);
+  }
+
   void note_place(std::uint64_t token, std::size_t field) {
     const ValuePlace place = manifest_.place(stream_, token, field);
-    frames_.insert(place.frame);
-    if (place.tile >= 0) tiles_.insert(place.tile);
-    groups_.insert(token % stream_.shape.tokens_per_pixel);
+    note(frames_, last_frame_, place.frame);
+    if (place.tile >= 0) note(tiles_, last_tile_, place.tile);
+    note(groups_, last_group_, token % stream_.shape.tokens_per_pixel);
     if (place.row < 0) return;
     const std::int64_t x = place.column - manifest_.tile_begins[static_cast<std::size_t>(place.tile)];
     const std::int64_t right = manifest_.tile_width - 1 - x;
@@ -326,7 +334,7 @@ class PatternSearch {
     bottom_ = std::max(bottom_, below);
     first_column_ = std::min(first_column_, x);
     first_row_ = std::min(first_row_, place.row);
-    columns_.insert(x);
+    note(columns_, last_column_, x);
   }
 
   // "the first 3 columns"
@@ -408,6 +416,8 @@ class PatternSearch {
   std::vector<std::uint64_t> differing_;  // the first of them
   std::set<std::int64_t> frames_, tiles_, columns_;
   std::set<std::uint64_t> groups_;
+  std::int64_t last_frame_ = 0, last_tile_ = 0, last_column_ = 0;
+  std::uint64_t last_group_ = 0;
   // How far the differences reach from the tile's borders, px.
   std::int64_t rim_ = 0, left_ = 0, right_ = 0, top_ = 0, bottom_ = 0;
   std::int64_t first_row_ = INT64_MAX, first_column_ = INT64_MAX;

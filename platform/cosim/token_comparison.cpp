@@ -23,14 +23,40 @@ std::string plural(std::uint64_t number, const char* what) {
   return fmt::format("{} {}{}", number, what, number == 1 ? "" : "s");
 }
 
-// "rows 3 to 20 (7 of them), most in row 5: 12"
-std::string spread(const char* what, const std::map<std::int64_t, std::uint64_t>& counts) {
+struct Counted {
+  const char* one;
+  const char* several;
+};
+
+// "rows 3 to 20 (7 of them), most in 5: 12"
+std::string spread(const Counted& what, const std::map<std::int64_t, std::uint64_t>& counts) {
   const auto most = std::max_element(counts.begin(), counts.end(),
                                      [](const auto& a, const auto& b) { return a.second < b.second; });
-  if (counts.size() == 1) return fmt::format("{} {}", what, most->first);
-  return fmt::format("{}s {} to {} ({} of them), most in {}: {}", what, counts.begin()->first,
+  if (counts.size() == 1) return fmt::format("{} {}", what.one, most->first);
+  return fmt::format("{} {} to {} ({} of them), most in {}: {}", what.several, counts.begin()->first,
                      counts.rbegin()->first, counts.size(), most->first, most->second);
 }
+
+// How often each number came, for millions of them.
+class Tally {
+ public:
+  void add(std::int64_t number) {
+    if (number < 0) return;
+    const auto index = static_cast<std::size_t>(number);
+    if (index >= counts_.size()) counts_.resize(index + 1);
+    ++counts_[index];
+  }
+  std::map<std::int64_t, std::uint64_t> counts() const {
+    std::map<std::int64_t, std::uint64_t> out;
+    for (std::size_t i = 0; i < counts_.size(); ++i) {
+      if (counts_[i] > 0) out[static_cast<std::int64_t>(i)] = counts_[i];
+    }
+    return out;
+  }
+
+ private:
+  std::vector<std::uint64_t> counts_;
+};
 
 nlohmann::ordered_json histogram(const std::map<std::int64_t, std::uint64_t>& counts) {
   nlohmann::ordered_json out = nlohmann::ordered_json::object();
@@ -63,6 +89,7 @@ TokenComparison compare_tokens(const VectorManifest& manifest, const VectorStrea
   out.expected_tokens = expected.size();
   out.got_tokens = got.words.size();
   out.compared_tokens = std::min(out.expected_tokens, out.got_tokens);
+  Tally rows, columns, disparities, in_field;
   std::uint64_t last = ~std::uint64_t{0};
   for_each_difference(stream, expected, got.words, [&](std::uint64_t token, std::size_t field) {
     const ValuePlace place = manifest.place(stream, token, field);
@@ -76,15 +103,20 @@ TokenComparison compare_tokens(const VectorManifest& manifest, const VectorStrea
       if (token < got.cycles.size()) out.first->cycle = got.cycles[token];
     }
     ++out.different_values;
-    if (place.row >= 0) ++out.rows[place.row];
-    if (place.column >= 0) ++out.columns[place.column];
-    if (place.disparity >= 0) ++out.disparities[place.disparity];
-    ++out.fields[fields[field].name];
+    rows.add(place.row);
+    columns.add(place.column);
+    disparities.add(place.disparity);
+    in_field.add(static_cast<std::int64_t>(field));
     if (token == last) return;
     last = token;
     ++out.different_tokens;
     if (got.words.unknown(token)) ++out.unknown_tokens;
   });
+  out.rows = rows.counts();
+  out.columns = columns.counts();
+  out.disparities = disparities.counts();
+  for (const auto& [field, count] : in_field.counts())
+    out.fields[fields[static_cast<std::size_t>(field)].name] = count;
   if (!out.equal()) out.patterns = find_patterns(out, expected, got.words);
   return out;
 }
@@ -120,16 +152,15 @@ std::string text(const TokenComparison& comparison) {
   }
   for (const DifferencePattern& pattern : comparison.patterns)
     out += fmt::format("{:20}{}\n", &pattern == &comparison.patterns.front() ? "pattern" : "", pattern.text);
-  std::string where;
-  for (const auto& [what, counts] :
-       {std::pair<const char*, const std::map<std::int64_t, std::uint64_t>*>{"row", &comparison.rows},
-        {"column", &comparison.columns},
-        {"disparity", &comparison.disparities}}) {
-    if (counts->empty()) continue;
-    out += fmt::format("{}{}\n", where.empty() ? "where               " : "                    ",
-                       spread(what, *counts));
-    where = "said";
-  }
+  const char* head = "where";
+  const auto say_where = [&](const Counted& what, const std::map<std::int64_t, std::uint64_t>& counts) {
+    if (counts.empty()) return;
+    out += fmt::format("{:20}{}\n", head, spread(what, counts));
+    head = "";
+  };
+  say_where({"row", "rows"}, comparison.rows);
+  say_where({"column", "columns"}, comparison.columns);
+  say_where({"disparity", "disparities"}, comparison.disparities);
   return out;
 }
 

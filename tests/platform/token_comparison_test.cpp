@@ -225,6 +225,9 @@ TEST_F(AlteredDump, FieldsInTheOtherOrder) {
   got = words_;
   for (std::size_t i = 1; i < got.size(); i += 2) got[i][i / 2 % 16] ^= i % 255 + 1;
   EXPECT_EQ(first_pattern(got), "one_group");
+  EXPECT_NE(text(compare(got)).find("\n                    disparities 26 to 41 (16 of them), most in "),
+            std::string::npos)
+      << text(compare(got));
 }
 
 TEST_F(AlteredDump, TokensLostDoubledOrLate) {
