@@ -6,16 +6,15 @@
 #include <algorithm>
 #include <cstdint>
 #include <functional>
-#include <optional>
 #include <set>
+
+#include "platform/cosim/token_shift.hpp"
 
 namespace parallax {
 namespace {
 
 constexpr std::size_t kSamples = 200;  // differing tokens that a guess must explain before all are looked at
-constexpr std::int64_t kWidestRim = 16;      // px; 31 x 31 is the largest usual window
-constexpr std::size_t kLeastExplained = 2;   // tokens: one alone follows any rule
-constexpr std::uint64_t kLeastBetween = 16;  // tokens that agree between two that are lost
+constexpr std::int64_t kWidestRim = 16;  // px; 31 x 31 is the largest usual window
 
 std::uint64_t mask(std::size_t bits) {
   return bits >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << bits) - 1;
@@ -52,15 +51,13 @@ class PatternSearch {
   }
 
   std::vector<DifferencePattern> find() {
-    if (find_ends()) return found_;
+    if (comparison_.different_tokens == 0) return find_end(comparison_);
     if (comparison_.unknown_tokens == comparison_.different_tokens) {
       add("unknown_bits", "all that differ have unknown bits (x or z)");
     } else if (comparison_.different_tokens >= kLeastExplained) {
       if (!find_constant()) {
-        find_lost();
-        find_delay();
+        found_ = find_shift(comparison_, expected_, got_, differing_);
         find_values();
-        find_lost_here_and_there();
       }
     }
     find_regions();
@@ -72,152 +69,12 @@ class PatternSearch {
  private:
   void add(const std::string& name, const std::string& text) { found_.push_back({name, text}); }
 
-  std::string place_text(std::uint64_t token) const {
-    const ValuePlace place = manifest_.place(stream_, token, 0);
-    if (place.row < 0) return fmt::format("token {} (frame {})", token, place.frame);
-    return fmt::format("token {} (frame {}, row {}, column {})", token, place.frame, place.row, place.column);
-  }
-
-  // All that both have is equal: one of them goes on.
-  bool find_ends() {
-    if (comparison_.different_tokens > 0) return false;
-    if (comparison_.got_tokens < comparison_.expected_tokens) {
-      add("truncated", fmt::format("it ends before {}, all before that is equal", place_text(tokens_)));
-    } else {
-      add("surplus", "more tokens at the end, all before them are equal");
-    }
-    return true;
-  }
-
   bool find_constant() {
     for (std::uint64_t token = 1; token < got_.size(); ++token) {
       if (!got_.same(token, got_, 0)) return false;
     }
     add("constant", "all its tokens are the same");
     return true;
-  }
-
-  // Whether got[i] is expected[i - late] for all i from `from` on for which both are there; late may be < 0.
-  bool shifted(std::int64_t late, std::uint64_t from) const {
-    const auto source = [late](std::uint64_t i) { return static_cast<std::int64_t>(i) - late; };
-    const auto matches = [&](std::uint64_t i) {
-      const std::int64_t at = source(i);
-      return at < 0 || at >= static_cast<std::int64_t>(expected_.size()) ||
-             got_.same(i, expected_, static_cast<std::uint64_t>(at));
-    };
-    std::size_t explained = 0;
-    for (const std::uint64_t i : differing_) {
-      if (i < from) continue;
-      if (!matches(i)) return false;
-      if (source(i) >= 0 && source(i) < static_cast<std::int64_t>(expected_.size())) ++explained;
-    }
-    if (explained < kLeastExplained) return false;
-    for (std::uint64_t i = from; i < got_.size(); ++i) {
-      if (!matches(i)) return false;
-    }
-    return true;
-  }
-
-  void find_lost() {
-    const std::uint64_t at = comparison_.first->token;
-    const auto difference = static_cast<std::int64_t>(comparison_.got_tokens) -
-                            static_cast<std::int64_t>(comparison_.expected_tokens);
-    const std::int64_t lost = difference < 0 ? -difference : 1;
-    const std::int64_t extra = difference > 0 ? difference : 1;
-    if (difference <= 0 && (at > 0 || difference < 0) && shifted(-lost, at)) {
-      if (lost == 1) {
-        add("token_lost", fmt::format("{} is lost, all others are there", place_text(at)));
-      } else {
-        add("tokens_lost",
-            fmt::format("{} tokens are lost from {} on, all others are there", lost, place_text(at)));
-      }
-    } else if (difference >= 0 && at > 0 && shifted(extra, at + static_cast<std::uint64_t>(extra))) {
-      const bool twice = extra == 1 && got_.same(at, expected_, at - 1);
-      add(twice ? "token_doubled" : "tokens_inserted",
-          fmt::format("{} before {}, all others are there",
-                      twice ? "a token comes twice" : fmt::format("{} too many", extra), place_text(at)));
-    }
-  }
-
-  // Tokens that are lost, or that come in addition, one here and one there: found by going through both and
-  // leaving one out where the next ones then agree.
-  void find_lost_here_and_there() {
-    if (!found_.empty()) return;
-    std::uint64_t lost = 0, inserted = 0, at = 0, from = 0;
-    std::optional<std::uint64_t> first;
-    while (at < got_.size() && from < expected_.size()) {
-      if (got_.same(at, expected_, from)) {
-        ++at;
-        ++from;
-        continue;
-      }
-      if (lost + inserted > got_.size() / kLeastBetween) return;
-      if (!first) first = from;
-      if (agree(at, from + 1)) {
-        ++lost;
-        ++from;
-      } else if (agree(at + 1, from)) {
-        ++inserted;
-        ++at;
-      } else {
-        return;
-      }
-    }
-    lost += expected_.size() - from;
-    inserted += got_.size() - at;
-    if (!first || lost + inserted < kLeastExplained) return;
-    const bool few = lost >= inserted;
-    add(few ? "tokens_lost" : "tokens_inserted",
-        fmt::format("{} tokens are {}, the first one {}{}, all others are there", few ? lost : inserted,
-                    few ? "lost" : "too many", few ? "" : "before ", place_text(*first)));
-  }
-
-  // Whether the next tokens are the same.
-  bool agree(std::uint64_t at, std::uint64_t from) const {
-    for (std::uint64_t i = 0; i < kLeastBetween; ++i) {
-      if (at + i >= got_.size() || from + i >= expected_.size()) return i > 0;
-      if (!got_.same(at + i, expected_, from + i)) return false;
-    }
-    return true;
-  }
-
-  void find_delay() {
-    if (!found_.empty()) return;
-    const std::uint64_t row = stream_.shape.row_tokens;
-    const std::uint64_t pixel = stream_.shape.tokens_per_pixel;
-    const std::uint64_t most = std::min<std::uint64_t>(tokens_ / 2, 4 * row + 64);
-    const auto name = [&](std::uint64_t late, bool early) {
-      const char* const way = early ? "early" : "late";
-      const std::uint64_t rows = row > 0 && late % row == 0 ? late / row : 0;
-      if (rows == 1) {
-        add(fmt::format("one_row_{}", way), fmt::format("one row {}", way));
-      } else if (row > 0 && late == pixel) {
-        add(fmt::format("one_column_{}", way), fmt::format("one column {}", way));
-      }
-      add("constant_latency",
-          fmt::format("all tokens are {} {} {}", late, late == 1 ? "token" : "tokens", way));
-    };
-    for (std::uint64_t late = 1; late <= most; ++late) {
-      if (shifted(static_cast<std::int64_t>(late), late)) return name(late, false);
-      if (shifted(-static_cast<std::int64_t>(late), 0)) return name(late, true);
-    }
-    if (row == 0) return;
-    for (const std::int64_t way : {1, -1}) {
-      const auto columns = way * static_cast<std::int64_t>(pixel);
-      if (shifted_in_rows(columns)) {
-        return add(way > 0 ? "one_column_late" : "one_column_early",
-                   way > 0 ? "one column late, in each row" : "one column early, in each row");
-      }
-    }
-  }
-
-  bool shifted_in_rows(std::int64_t late) const {
-    const auto row = static_cast<std::int64_t>(stream_.shape.row_tokens);
-    const auto matches = [&](std::uint64_t i) {
-      const std::int64_t in_row = static_cast<std::int64_t>(i) % row - late;
-      return in_row < 0 || in_row >= row || got_.same(i, expected_, i - static_cast<std::uint64_t>(late));
-    };
-    return std::all_of(differing_.begin(), differing_.end(), matches) && all_tokens(matches);
   }
 
   template <class Matches>
@@ -344,7 +201,6 @@ class PatternSearch {
   }
 
   void find_regions() {
-    if (comparison_.different_tokens == 0) return;
     if (!comparison_.disparities.empty()) find_disparities();
     if (stream_.shape.row_tokens > 0 && comparison_.different_tokens >= kLeastExplained) find_image_regions();
     if (fields_.size() > 1 && comparison_.fields.size() == 1 && !is_one_disparity()) {

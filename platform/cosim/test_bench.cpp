@@ -41,15 +41,13 @@ Replacements words_of(const VectorManifest& manifest, const VectorStream& stream
           {"file", stream.file},
           {"range", range(stream)},
           {"width", std::to_string(width)},
-          {"rotated", width == 1 ? "@port@_sum"
-                                 : fmt::format("{{@port@_sum[{}:0], @port@_sum[{}]}}", width - 2, width - 1)},
-          {"port", stream.port},
+          {"rotated",
+           width == 1 ? stream.port + "_sum"
+                      : fmt::format("{{{0}_sum[{1}:0], {0}_sum[{2}]}}", stream.port, width - 2, width - 1)},
           {"check", digits_of(stream.check, width)},
           {"tokens", std::to_string(stream.tokens)},
           {"frame", std::to_string(frame)},
           {"row", std::to_string(row)},
-          {"group", std::to_string(stream.shape.tokens_per_pixel)},
-          {"pixels", std::to_string(stream.shape.pixels_per_token)},
           {"stage", manifest.stage}};
 }
 
@@ -240,7 +238,7 @@ std::string all(const VectorManifest& manifest, const char* text,
   for (const VectorStream& stream : manifest.streams) {
     if (!which(stream)) continue;
     if (!out.empty()) out += between;
-    out += filled(filled(text, words_of(manifest, stream)), {{"port", stream.port}});
+    out += filled(text, words_of(manifest, stream));
   }
   return out;
 }
@@ -281,8 +279,7 @@ std::string loads(const VectorManifest& manifest) {
   std::string out;
   unsigned salt = 0x2545F491;
   for (const VectorStream& stream : manifest.streams) {
-    out += filled(filled(filled(kLoad, words_of(manifest, stream)), {{"port", stream.port}}),
-                  {{"salt", std::to_string(salt)}});
+    out += filled(filled(kLoad, words_of(manifest, stream)), {{"salt", std::to_string(salt)}});
     salt = salt * 1664525U + 1013904223U;
   }
   return out;

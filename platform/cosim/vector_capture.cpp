@@ -94,11 +94,15 @@ void check_vectors(const Machine& machine, const std::string& stage) {
     throw UserError(fmt::format("--stage is '{}'; the nearest of this machine's stages is {}", excerpt(stage),
                                 nearest_name(stage, all)));
   }
-  if (machine.config().matching.parallel_rows > 1) {
+  const std::vector<TokenPort> ports = machine.pipeline().ports(stage);
+  const bool has_costs = std::any_of(ports.begin(), ports.end(), [](const TokenPort& port) {
+    return port.shape.first_disparity.has_value();
+  });
+  if (has_costs && machine.config().matching.parallel_rows > 1) {
     throw UserError(
         "matching.parallel_rows is more than 1: the model has the values of such tokens in the order of "
         "rows, "
-        "not as they lie on the wires; vectors need 1");
+        "not as they lie on the wires; vectors of costs need 1");
   }
 }
 

@@ -27,7 +27,7 @@ Json fields_json(const TokenFormat& format) {
   return all;
 }
 
-Json stream_json(const VectorStream& stream, std::int64_t frames) {
+Json stream_json(const VectorStream& stream) {
   const TokenShape& shape = stream.shape;
   Json out{{"name", stream.name},
            {"also", stream.also},
@@ -37,7 +37,7 @@ Json stream_json(const VectorStream& stream, std::int64_t frames) {
   if (!stream.dates_file.empty()) out["dates_file"] = stream.dates_file;
   out["width"] = shape.format.width().count();
   out["tokens"] = stream.tokens;
-  out["tokens_per_frame"] = frames > 0 ? stream.tokens / static_cast<std::uint64_t>(frames) : 0;
+  out["tokens_per_frame"] = stream.frame_tokens;
   out["tokens_per_row"] = shape.row_tokens;
   out["tokens_per_pixel"] = shape.tokens_per_pixel;
   out["pixels_per_token"] = shape.pixels_per_token;
@@ -133,7 +133,7 @@ const VectorStream* VectorManifest::find(const std::string& name) const {
 
 nlohmann::ordered_json to_json(const VectorManifest& manifest) {
   Json streams = Json::array();
-  for (const VectorStream& stream : manifest.streams) streams.push_back(stream_json(stream, manifest.frames));
+  for (const VectorStream& stream : manifest.streams) streams.push_back(stream_json(stream));
   return {{"format", kFormat},
           {"version", VectorManifest::kVersion},
           {"program", manifest.program},

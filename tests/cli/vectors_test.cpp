@@ -156,7 +156,7 @@ TEST_F(Vectors, WhatCannotBeAskedFor) {
   EXPECT_EQ(refusal("vectors --stage matching --size 64x48 --out v --set matching.parallel_rows=2"),
             "matching.parallel_rows is more than 1: the model has the values of such tokens in the order of "
             "rows, not "
-            "as they lie on the wires; vectors need 1\n");
+            "as they lie on the wires; vectors of costs need 1\n");
   EXPECT_EQ(refusal("vectors --stage census --left missing.png --right missing.png --out v"),
             "image missing.png does not exist\n");
 }

@@ -175,6 +175,17 @@ TEST_F(AlteredDump, APartOfTheImage) {
   EXPECT_EQ(pattern(is_in([](auto x, auto y) { return (x * 7 + y * 13) % 50 == 3; })), "none");
 }
 
+// Where all are alike, a token that has another value is not one too many.
+TEST_F(AlteredDump, OtherValuesInAFlatImage) {
+  make(codes(64, 24), 64, 48);
+  for (auto& word : words_) word = {7};
+  words_.back() = {8};
+  Words got = words_;
+  got[64 * 22 + 30] = {9};
+  got[64 * 25 + 33] = {1};
+  EXPECT_EQ(first_pattern(got), "none");
+}
+
 TEST_F(AlteredDump, AnotherFrameOrTile) {
   make(codes(32, 24), 32, 20, 3);
   const auto later = [](const ValuePlace& place, std::uint64_t value) {
