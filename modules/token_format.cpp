@@ -68,4 +68,14 @@ void FieldPacker::next(std::int64_t value) {
   if (shift + field.width > kWord) bits_[word + 1] |= bits >> (kWord - shift);
 }
 
+std::int64_t FieldUnpacker::next() {
+  constexpr std::size_t kWord = 64;
+  const TokenField& field = format_.all().at(field_++);
+  const std::size_t word = field.low / kWord;
+  const std::size_t shift = field.low % kWord;
+  std::uint64_t bits = bits_[word] >> shift;
+  if (shift + field.width > kWord) bits |= bits_[word + 1] << (kWord - shift);
+  return value_of(bits, field);
+}
+
 }  // namespace parallax

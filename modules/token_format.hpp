@@ -64,4 +64,20 @@ class FieldPacker {
   std::size_t field_ = 0;
 };
 
+/// Takes the fields of a token one after the other out of words of 64 bits.
+class FieldUnpacker {
+ public:
+  /// Of as many bits as the format's width; both must outlive it.
+  FieldUnpacker(const TokenFormat& format, const std::vector<std::uint64_t>& bits)
+      : format_(format), bits_(bits) {}
+
+  /// With its sign. std::out_of_range when there is no further field.
+  std::int64_t next();
+
+ private:
+  const TokenFormat& format_;
+  const std::vector<std::uint64_t>& bits_;
+  std::size_t field_ = 0;
+};
+
 }  // namespace parallax

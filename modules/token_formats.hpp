@@ -70,6 +70,31 @@ void pack_values(const TokenFormat& format, const T* values, std::size_t size,
   }
 }
 
+/// A value from its fields. Of a disparity's cause the wires do not tell: Cause::kMatched.
+template <class T>
+T value_of_fields(FieldUnpacker& fields) {
+  return static_cast<T>(fields.next());
+}
+template <>
+inline Disparity value_of_fields<Disparity>(FieldUnpacker& fields) {
+  return {static_cast<std::uint16_t>(fields.next()), Cause::kMatched};
+}
+template <>
+inline OffsetPair value_of_fields<OffsetPair>(FieldUnpacker& fields) {
+  OffsetPair pair;
+  for (std::int16_t* const field : {&pair.left.dx, &pair.left.dy, &pair.right.dx, &pair.right.dy})
+    *field = static_cast<std::int16_t>(fields.next());
+  return pair;
+}
+
+/// What pack_values() put onto the wires: the first `size` values of the token.
+template <class T>
+void unpack_values(const TokenFormat& format, const std::vector<std::uint64_t>& bits, T* values,
+                   std::size_t size) {
+  FieldUnpacker fields(format, bits);
+  for (std::size_t i = 0; i < size; ++i) values[i] = value_of_fields<T>(fields);
+}
+
 Gray unpack_gray(const TokenFormat& gray, const BitVector& bus);
 OffsetPair unpack_offset_pair(const TokenFormat& offset_pair, const BitVector& bus);
 CensusCode unpack_code(const TokenFormat& census_code, const BitVector& bus);

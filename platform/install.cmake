@@ -3,12 +3,12 @@
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-install(TARGETS parallax)
-install(TARGETS parallax_tlm parallax_modules parallax_traces parallax_platform EXPORT parallax)
+install(TARGETS parallax parallax_tlm parallax_modules parallax_traces parallax_platform EXPORT parallax)
 install(DIRECTORY tlm modules traces platform DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/parallax
   FILES_MATCHING PATTERN "*.hpp" PATTERN presets EXCLUDE)
 install(DIRECTORY platform/presets/ DESTINATION ${CMAKE_INSTALL_DATADIR}/parallax/presets
   OPTIONAL FILES_MATCHING PATTERN "*.toml")
+install(DIRECTORY platform/cosim/circuit/ DESTINATION ${CMAKE_INSTALL_DATADIR}/parallax/circuit)
 
 set(package ${CMAKE_INSTALL_LIBDIR}/cmake/parallax)
 install(EXPORT parallax DESTINATION ${package} NAMESPACE parallax:: FILE parallax-targets.cmake)
@@ -17,4 +17,4 @@ configure_package_config_file(platform/parallax-config.cmake.in parallax-config.
   PATH_VARS parallax_presets)
 write_basic_package_version_file(parallax-config-version.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/parallax-config.cmake ${PROJECT_BINARY_DIR}/parallax-config-version.cmake
-  DESTINATION ${package})
+  platform/parallax-cosim.cmake DESTINATION ${package})

@@ -141,9 +141,10 @@ BusStatistics BusMaster::statistics() const {
   return all;
 }
 
-void BusMaster::read_now(std::uint64_t address, std::uint8_t* data, std::size_t size) {
+void BusMaster::access_now(::tlm::tlm_command command, std::uint64_t address, std::uint8_t* data,
+                           std::size_t size) {
   ::tlm::tlm_generic_payload payload;
-  payload.set_command(::tlm::TLM_READ_COMMAND);
+  payload.set_command(command);
   payload.set_address(address);
   payload.set_data_ptr(data);
   payload.set_data_length(static_cast<unsigned>(size));

@@ -72,8 +72,13 @@ class BusMaster final : public sc_core::sc_module {
   /// and when the request before was taken. An answer that is an error is reported with SC_REPORT_ERROR
   /// /parallax/dma/response.
   void send(::tlm::tlm_generic_payload& payload, const sc_core::sc_time& time);
-  /// Functional access, in no time.
-  void read_now(std::uint64_t address, std::uint8_t* data, std::size_t size);
+  /// Functional accesses, in no time.
+  void read_now(std::uint64_t address, std::uint8_t* data, std::size_t size) {
+    access_now(::tlm::TLM_READ_COMMAND, address, data, size);
+  }
+  void write_now(std::uint64_t address, std::uint8_t* data, std::size_t size) {
+    access_now(::tlm::TLM_WRITE_COMMAND, address, data, size);
+  }
 
   /// One more listener, or one less (Listeners).
   void add_listener(BusListener& listener) { listeners_.add(listener); }
@@ -106,6 +111,7 @@ class BusMaster final : public sc_core::sc_module {
         : begin(from), end(to), bytes(number) {}
   };
 
+  void access_now(::tlm::tlm_command command, std::uint64_t address, std::uint8_t* data, std::size_t size);
   ::tlm::tlm_sync_enum nb_transport_bw(::tlm::tlm_generic_payload& payload, ::tlm::tlm_phase& phase,
                                        sc_core::sc_time& delay);
   void phase_due(::tlm::tlm_generic_payload& payload, const ::tlm::tlm_phase& phase);

@@ -77,8 +77,8 @@ bool DmaEngine::have_burst() {
   return true;
 }
 
-::tlm::tlm_generic_payload& DmaEngine::take_payload(::tlm::tlm_command command) {
-  return master.pool().take(command, memory_address(), last_byte() - first_byte(), job_.values);
+::tlm::tlm_generic_payload& DmaEngine::take_payload(::tlm::tlm_command command, bool values) {
+  return master.pool().take(command, memory_address(), last_byte() - first_byte(), values);
 }
 
 void DmaEngine::request(::tlm::tlm_generic_payload& payload, Cycles cycle) {
@@ -153,7 +153,7 @@ bool DmaReader::request_next() {
   const Cycles ready = std::max(free(), *behind);
   blocked_.push_back({latest, std::max(Cycles(0), room - ready)});
   send_rows(last_byte());
-  request(take_payload(::tlm::TLM_READ_COMMAND), std::max(ready, room));
+  request(take_payload(::tlm::TLM_READ_COMMAND, job().values), std::max(ready, room));
   return true;
 }
 
@@ -204,9 +204,17 @@ void DmaReader::burst_answered(Cycles cycle) {
 DmaWriter::DmaWriter(const sc_core::sc_module_name& name, const DmaEngineConfig& config,
                      const ClockDomain& clock)
     : DmaEngine(name, config, clock) {
-  in_bursts.on_row(0, [this](const std::uint8_t* bytes, std::size_t size) {
-    bytes_.insert(bytes_.end(), bytes, bytes + size);
-  });
+  in_bursts.on_row(0, [this](const std::uint8_t* bytes, std::size_t size) { take_bytes(bytes, size); });
+}
+
+void DmaWriter::take_bytes(const std::uint8_t* bytes, std::size_t size) {
+  bytes_.insert(bytes_.end(), bytes, bytes + size);
+  for (; !late_.empty() && bytes_.size() >= late_.front().bytes; late_.pop_front()) {
+    const auto end = bytes_.begin() + late_.front().bytes;
+    std::vector<std::uint8_t> burst(bytes_.begin(), end);
+    bytes_.erase(bytes_.begin(), end);
+    master.write_now(late_.front().address, burst.data(), burst.size());
+  }
 }
 
 bool DmaWriter::request_next() {
@@ -217,16 +225,21 @@ bool DmaWriter::request_next() {
   const Cycles readable = in_bursts->readable_at();
   const Cycles cycle = std::max(free(), readable);
   const std::uint64_t size = last_byte() - first_byte();
-  if (job().values && bytes_.size() < size) {
+  const bool have_bytes = late_.empty() && bytes_.size() >= size;
+  if (job().values && !have_bytes) {
     if (!has_come(cycle)) {
       look_again(cycle);
       return false;
     }
-    SC_REPORT_ERROR("/parallax/dma/values",
-                    (std::string(name()) + ": a burst is due before its bytes").c_str());
+    if (!job().late_values || last_byte() == job().bytes()) {
+      SC_REPORT_ERROR("/parallax/dma/values",
+                      (std::string(name()) + ": a burst is due before its bytes").c_str());
+    }
+    late_.push_back({memory_address(), size});
   }
-  ::tlm::tlm_generic_payload& payload = take_payload(::tlm::TLM_WRITE_COMMAND);
-  if (job().values) {
+  const bool carries = job().values && have_bytes;
+  ::tlm::tlm_generic_payload& payload = take_payload(::tlm::TLM_WRITE_COMMAND, carries);
+  if (carries) {
     const auto end = bytes_.begin() + size;
     std::copy(bytes_.begin(), end, payload.get_data_ptr());
     bytes_.erase(bytes_.begin(), end);

@@ -51,6 +51,10 @@ struct DmaJob {
   bool downwards = false;     ///< the last burst first; of one piece that is a whole number of bursts, each a
                               ///< row if it has values
   std::shared_ptr<TransferProgress> progress{};  ///< notified of each burst that is answered
+  /// Of a writer: bytes may come after the date of their burst, as behind a block in kernel time whose values
+  /// are worked on a row at a time. They are put into memory when they come, which must be before the last
+  /// burst's date.
+  bool late_values = false;
   /// For a reader that must not overtake a writer: bytes before `last_byte` of this job are requested when
   /// `needed(last_byte)` bursts of `behind` have been answered; with values, all rows that the burst touches
   /// must be in memory then.
@@ -96,7 +100,8 @@ class DmaEngine : public sc_core::sc_module, public Actor, private BusClient {
   void not_free_before(Cycles cycle) { free_ = std::max(free_, cycle); }
   /// Bursts requested and not answered.
   std::uint64_t under_way() const { return requested_ - answered_; }
-  ::tlm::tlm_generic_payload& take_payload(::tlm::tlm_command command);
+  /// `values`: it carries bytes, not traffic alone.
+  ::tlm::tlm_generic_payload& take_payload(::tlm::tlm_command command, bool values);
   /// Requests the burst in `cycle`, free() at the earliest.
   void request(::tlm::tlm_generic_payload& payload, Cycles cycle);
   /// Looks at the burst again in `cycle`, if not before.
@@ -197,8 +202,15 @@ class DmaWriter final : public DmaEngine {
   void burst_answered(Cycles) override {}
   Dataflow& dataflow() override { return in_bursts->dataflow(); }
 
+  void take_bytes(const std::uint8_t* bytes, std::size_t size);
+
   std::deque<std::uint8_t> bytes_;
-  Cycles starved_;  // how long lack of a token held the last request back
+  struct Late {  // a burst that was requested before its bytes had come
+    std::uint64_t address;
+    std::uint64_t bytes;
+  };
+  std::deque<Late> late_;  // theirs are the first of bytes_
+  Cycles starved_;         // how long lack of a token held the last request back
 };
 
 }  // namespace parallax

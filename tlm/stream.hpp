@@ -72,6 +72,12 @@ class Stream final : public StreamBase {
     return value;
   }
 
+  /// The value that read() would return, which leaves it there. Needs can_read(), and what read() needs.
+  const T& peek() const {
+    if (values_.empty()) SC_REPORT_ERROR("/parallax/stream/value", name());
+    return values_.front();
+  }
+
   /// For threads in kernel time: writes one token in the first cycle in which that is possible.
   void write(const T& value) {
     wait_writable();

@@ -218,6 +218,16 @@ class StreamBase : public sc_core::sc_prim_channel, public virtual sc_core::sc_i
 
   // For threads in kernel time: block until the present cycle allows it.
 
+  /// Whether the next token can be read, or written, in the present cycle. What a block in kernel time, or a
+  /// circuit, does in the same cycle counts once it has done it.
+  bool can_read() const {
+    const Cycles now = reader_clock_.now();
+    return read_date_known() && readable_at() <= now && last_read_ < now;
+  }
+  bool can_write() const {
+    const Cycles now = writer_clock_.now();
+    return write_date_known() && writable_at() <= now && last_write_ < now;
+  }
   /// Returns in the first cycle, not before the present one, in which the next token can be read.
   void wait_readable();
   /// Marks the next token as read in the present cycle; call after wait_readable().

@@ -11,6 +11,7 @@
 
 #include "tlm/ring.hpp"
 #include "tlm/stream.hpp"
+#include "tlm/token_run.hpp"
 
 namespace parallax {
 
@@ -22,10 +23,7 @@ struct TapConfig {
   std::size_t values_per_piece = 0;
   /// Where tokens are of several sizes otherwise: runs of tokens, over and over (those of a frame), in place
   /// of the two above.
-  struct Run {
-    std::uint64_t tokens = 0;  ///< >= 1
-    std::size_t values = 0;    ///< of each, >= 1
-  };
+  using Run = TokenRun;
   std::vector<Run> runs{};
   enum class Side { kWrites, kReads };
   Side side = Side::kWrites;  ///< whose dates
@@ -59,7 +57,7 @@ class Tap final : private StreamListener, private RowListener<T> {
   using Take = std::function<void(const TappedToken<T>& token)>;
 
   Tap(Stream<T>& stream, const TapConfig& config, Take take)
-      : stream_(stream), config_(config), take_(std::move(take)) {
+      : stream_(stream), config_(config), take_(std::move(take)), in_run_(config.runs) {
     stream_.add_listener(*this);
     stream_.add_row_listener(*this);
   }
@@ -113,16 +111,13 @@ class Tap final : private StreamListener, private RowListener<T> {
     }
     into_piece_ += wanted;
     if (into_piece_ == config_.values_per_piece) into_piece_ = 0;
-    if (!config_.runs.empty() && ++into_run_ == config_.runs[run_].tokens) {
-      into_run_ = 0;
-      run_ = (run_ + 1) % config_.runs.size();
-    }
+    if (!config_.runs.empty()) in_run_.next();
   }
 
   std::size_t available() const { return values_.size() - first_; }
   // Values of the next token.
   std::size_t token_size() const {
-    if (!config_.runs.empty()) return config_.runs[run_].values;
+    if (!config_.runs.empty()) return in_run_.size();
     if (config_.values_per_piece == 0) return config_.values_per_token;
     return std::min(config_.values_per_token, config_.values_per_piece - into_piece_);
   }
@@ -132,8 +127,7 @@ class Tap final : private StreamListener, private RowListener<T> {
   const Take take_;
   std::uint64_t number_ = 0;
   std::size_t into_piece_ = 0;  // values of the piece that are handed over
-  std::size_t run_ = 0;         // of the next token,
-  std::uint64_t into_run_ = 0;  // and tokens of it that are handed over
+  PlaceInRuns in_run_;          // of the next token
   std::vector<T> values_;       // whose dates are not known,
   std::size_t first_ = 0;       // from this one on
   Ring<Cycles> dates_;          // whose values are not known

@@ -12,6 +12,7 @@
 #include <systemc>
 #include <vector>
 
+#include "platform/commands/circuit_command.hpp"
 #include "platform/commands/command_context.hpp"
 #include "platform/commands/common_options.hpp"
 #include "platform/commands/compare_command.hpp"
@@ -111,6 +112,7 @@ void add_commands(CLI::App& app, CommandContext& context) {
   add_validate_command(app, context);
   add_vectors_command(app, context);
   add_compare_command(app, context);
+  add_circuit_command(app, context);
   refuse_empty_values(app);
 }
 

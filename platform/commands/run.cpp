@@ -22,6 +22,7 @@
 #include "platform/commands/trial_pool.hpp"
 #include "platform/commands/vary.hpp"
 #include "platform/config/preset.hpp"
+#include "platform/cosim/circuit_run.hpp"
 #include "platform/evaluation/verdict.hpp"
 #include "platform/input/run_input.hpp"
 #include "platform/machine/machine.hpp"
@@ -69,7 +70,12 @@ class Run {
                                            notes_.sink());
     progress_->may_go_on_to(length_.most);
     // Before this process simulates.
-    if (options_.verdict || options_.report)
+    if (!options_.circuit.circuit.empty()) {
+      circuit_ =
+          std::make_unique<CircuitRun>(options_.circuit, configuration_.machine, model_input(), interrupted_);
+      if (interrupted_()) return interrupted(writer);
+    }
+    if ((options_.verdict && !circuit_) || options_.report)
       trials_.emplace(options_.configuration, timing_input(), context_, interruption_);
     const Machine machine("machine", configuration_.machine, machine_input(simulation, writer));
     SamplingTimer timer("sampling_timer");
@@ -114,6 +120,7 @@ class Run {
     input.least_frames = length_.least;
     input.enough = frames_are_enough;
     input.timing_only = options_.timing_only;
+    if (circuit_) input.replacements = circuit_->replacements([] { sc_core::sc_stop(); });
     input.expose = [this, &simulation](std::int64_t frame) {
       const bool has_images = !options_.timing_only && frame < images_.frames();
       return simulation.at_exposure(frame, [&] { return has_images ? images_.load(frame) : StereoFrame{}; });
@@ -128,6 +135,19 @@ class Run {
         progress_->advance();
         if (!result.disparities.empty()) writer.take(result);
       });
+    };
+    return input;
+  }
+
+  // Of the model without the circuit, on the frames with images alone.
+  MachineInput model_input() const {
+    MachineInput input;
+    input.width = images_.padded().width;
+    input.height = images_.padded().height;
+    input.map = &images_.map();
+    input.frames = images_.frames();
+    input.expose = [this](std::int64_t frame) {
+      return frame < images_.frames() ? images_.load(frame) : StereoFrame{};
     };
     return input;
   }
@@ -151,6 +171,15 @@ class Run {
     totals.command = context_.command_line.text();
     if (images_.is_scene()) totals.scene_seed = options_.scene.seed;
     const RunResults results(options_, configuration_, context_, folder_.get());
+    if (circuit_) {
+      machine.dataflow().bring_up_to_date();
+      circuit_->conclude();
+      if (!circuit_->fault().empty()) {
+        context_.err << fmt::format("parallax: error: the circuit was given up: {}\n", circuit_->fault());
+        tell_of_circuit();
+        return kNotAsExpected;
+      }
+    }
     if (!machine.finished()) {  // the files say how far it came
       const Deadlock deadlock = find_deadlock(machine);
       context_.err << "parallax: error: " << message(deadlock);
@@ -165,7 +194,17 @@ class Run {
     const nlohmann::ordered_json tree = results.write(metrics, profile_.get(), writer);
     if (!judged) return interrupted(writer);
     results.print(metrics, tree);
-    return 0;
+    if (!circuit_) return 0;
+    tell_of_circuit();
+    return circuit_->as_model() ? 0 : kNotAsExpected;
+  }
+
+  void tell_of_circuit() const {
+    if (options_.json) {
+      context_.out << json_text(circuit_->json(), 2) << '\n';
+    } else if (context_.verbosity != Verbosity::kQuiet) {
+      context_.out << circuit_->text();
+    }
   }
 
   // Adds what limits, but not of a single frame, which has no rate. Says no when it was interrupted.
@@ -209,6 +248,7 @@ class Run {
   const std::function<bool()> interrupted_ = [this] { return interruption_.requested(); };
   std::unique_ptr<OutputFolder> folder_;
   std::unique_ptr<Progress> progress_;
+  std::unique_ptr<CircuitRun> circuit_;  // in the place of a stage, if there is one
   std::optional<TrialPool> trials_;
   std::unique_ptr<Tracing> tracing_;
   std::unique_ptr<RunProfile> profile_;

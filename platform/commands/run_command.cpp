@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "platform/commands/circuit_arguments.hpp"
 #include "platform/commands/command_context.hpp"
 #include "platform/commands/common_options.hpp"
 #include "platform/commands/input_options.hpp"
@@ -107,6 +108,7 @@ void add_run_command(CLI::App& app, CommandContext& context) {
                   "Stages and memory ports that are traced, a stage with its streams; all if not given")
       ->type_name("NAME,...")
       ->group("Trace");
+  add_circuit_options(command, options->circuit);
   add_json_option(command, options->json);
   add_configuration_options(command, options->configuration);
   command.callback(

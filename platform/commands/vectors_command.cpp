@@ -87,7 +87,7 @@ int write_vectors(const VectorsOptions& options, CommandContext& context) {
     });
   };
   const Machine machine("machine", configuration.machine, input);
-  check_vectors(machine, options.stage);
+  check_vectors(machine, options.stage, "--stage");
 
   FolderPlan plan = folder_plan(options.run, ResultPlan{});
   plan.writes = [names = vector_file_names(machine, options.stage, options.dates)](const std::string& name) {

@@ -34,8 +34,8 @@ std::string digits_of(const std::string& check, std::size_t width) {
 Replacements words_of(const VectorManifest& manifest, const VectorStream& stream) {
   const std::size_t width = stream.shape.format.width().size();
   const bool knows_rows = stream.shape.row_tokens > 0;
-  const std::uint64_t frame = std::max<std::uint64_t>(stream.frame_tokens, 1);
-  const std::uint64_t row = knows_rows ? stream.shape.row_tokens : frame;
+  const std::uint64_t pass = std::max<std::uint64_t>(manifest.pass_tokens(stream), 1);
+  const std::uint64_t row = knows_rows ? stream.shape.row_tokens : pass;
   return {{"port", stream.port},
           {"stream", stream.name},
           {"file", stream.file},
@@ -46,7 +46,7 @@ Replacements words_of(const VectorManifest& manifest, const VectorStream& stream
                       : fmt::format("{{{0}_sum[{1}:0], {0}_sum[{2}]}}", stream.port, width - 2, width - 1)},
           {"check", digits_of(stream.check, width)},
           {"tokens", std::to_string(stream.tokens)},
-          {"frame", std::to_string(frame)},
+          {"pass", std::to_string(pass)},
           {"row", std::to_string(row)},
           {"stage", manifest.stage}};
 }
@@ -114,7 +114,7 @@ constexpr const char* kInput = R"(
         if (@port@_next < @tokens@ && {24'd0, @port@_random[31:24]} >= stall) begin
           @port@_valid <= 1'b1;
           @port@_data <= @port@_words[@port@_next];
-          @port@_first <= @port@_next % @frame@ == 0;
+          @port@_first <= @port@_next % @pass@ == 0;
           @port@_last <= @port@_next % @row@ == @row@ - 1;
           @port@_next <= @port@_next + 1;
         end else begin
@@ -371,7 +371,8 @@ std::string circuit_stub(const VectorManifest& manifest) {
       "them.\n"
       "// A token is taken in a cycle in which valid and ready are both 1 at the rising edge of clk. rst is "
       "high, and synchronous.\n"
-      "// first: the first token of a frame; last: the last one of a row. The model: {1} cycle{2} from one "
+      "// first: the first token of a frame, or of a tile of it; last: the last one of a row. The model: {1} "
+      "cycle{2} from one "
       "token to the next, {3} from\n"
       "// reading to writing, {4} tokens of pixels read beyond the one written.\n"
       "`timescale 1ns / 1ps\n`default_nettype none\n\nmodule {0} (\n  input wire clk,\n  input wire rst",

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "modules/token_format.hpp"
@@ -16,12 +17,22 @@ class TokenWords {
  public:
   explicit TokenWords(std::size_t width) : width_(width), stride_((width + kWord - 1) / kWord) {}
 
+  /// Of words that lie one after the other, each in whole words of 64 bits; all bits are known.
+  TokenWords(std::size_t width, std::vector<std::uint64_t> bits) : TokenWords(width) {
+    bits_ = std::move(bits);
+  }
+
   std::size_t width() const { return width_; }  ///< bits
   std::uint64_t size() const { return bits_.size() / stride_; }
 
   /// Appends a word of zeros; its bits are then set.
   void append() {
     bits_.resize(bits_.size() + stride_);
+    if (!unknown_.empty()) unknown_.resize(bits_.size());
+  }
+  /// Appends the word of these bits, bit 0 lowest in the first of them; all are known.
+  void append(const std::vector<std::uint64_t>& bits) {
+    bits_.insert(bits_.end(), bits.begin(), bits.begin() + static_cast<std::ptrdiff_t>(stride_));
     if (!unknown_.empty()) unknown_.resize(bits_.size());
   }
   /// Appends the word of these hexadecimal digits, x, z and '_'. Returns what is wrong with them, or "".

@@ -55,18 +55,15 @@ class VectorCapture::Lines {
 };
 
 struct VectorCapture::Port {
-  Port(const TokenPort& port, bool dates, OutputFolder& folder)
-      : width(port.shape.format.width().size()),
-        words(folder.open(port.streams.front() + ".memh")),
+  Port(VectorStream of, const TokenPort& port, bool dates, OutputFolder& folder)
+      : stream(std::move(of)),
+        width(port.shape.format.width().size()),
+        words(folder.open(stream.file)),
         check(width) {
-    if (dates) times.emplace(folder.open(port.streams.front() + ".dates"));
-    stream.name = port.streams.front();
-    stream.also.assign(port.streams.begin() + 1, port.streams.end());
-    stream.port = port.name;
-    stream.is_input = port.is_input;
-    stream.file = stream.name + ".memh";
-    if (dates) stream.dates_file = stream.name + ".dates";
-    stream.shape = port.shape;
+    if (dates) {
+      stream.dates_file = stream.name + ".dates";
+      times.emplace(folder.open(stream.dates_file));
+    }
     tap = port.tap([this](const WiredToken& token) { take(token); });
   }
 
@@ -88,11 +85,11 @@ struct VectorCapture::Port {
   std::unique_ptr<TokenTap> tap;
 };
 
-void check_vectors(const Machine& machine, const std::string& stage) {
+void check_vectors(const Machine& machine, const std::string& stage, const char* option) {
   const std::vector<std::string> all = machine.pipeline().slots();
   if (std::find(all.begin(), all.end(), stage) == all.end()) {
-    throw UserError(fmt::format("--stage is '{}'; the nearest of this machine's stages is {}", excerpt(stage),
-                                nearest_name(stage, all)));
+    throw UserError(fmt::format("{}: there is no stage '{}'; the nearest of this machine's is {}", option,
+                                excerpt(stage), nearest_name(stage, all)));
   }
   const std::vector<TokenPort> ports = machine.pipeline().ports(stage);
   const bool has_costs = std::any_of(ports.begin(), ports.end(), [](const TokenPort& port) {
@@ -115,23 +112,39 @@ std::set<std::string> vector_file_names(const Machine& machine, const std::strin
   return names;
 }
 
+VectorManifest stage_manifest(const Machine& machine, const std::string& stage) {
+  const Pipeline& pipeline = machine.pipeline();
+  VectorManifest manifest;
+  manifest.program = fmt::format("parallax {} ({})", version(), revision());
+  manifest.stage = stage;
+  manifest.width = machine.input().width;
+  manifest.height = machine.input().height;
+  manifest.tile_width = machine.tiles().width;
+  for (const Tile& tile : machine.tiles().tiles) manifest.tile_begins.push_back(tile.begin);
+  manifest.clock_hz = machine.config().clocks.core_hz;
+  const SlotModule& slot = pipeline.slot(stage);
+  manifest.interval = usual_interval(slot.stage->schedule());
+  manifest.latency = slot.latency;
+  manifest.look_ahead = slot.look_ahead;
+  for (const TokenPort& port : pipeline.ports(stage)) {
+    VectorStream stream;
+    stream.name = port.streams.front();
+    stream.also.assign(port.streams.begin() + 1, port.streams.end());
+    stream.port = port.name;
+    stream.is_input = port.is_input;
+    stream.file = stream.name + ".memh";
+    stream.shape = port.shape;
+    manifest.streams.push_back(stream);
+  }
+  return manifest;
+}
+
 VectorCapture::VectorCapture(const Machine& machine, const std::string& stage, bool dates,
                              OutputFolder& folder)
-    : machine_(machine) {
-  const Pipeline& pipeline = machine.pipeline();
-  manifest_.program = fmt::format("parallax {} ({})", version(), revision());
-  manifest_.stage = stage;
-  manifest_.width = machine.input().width;
-  manifest_.height = machine.input().height;
-  manifest_.tile_width = machine.tiles().width;
-  for (const Tile& tile : machine.tiles().tiles) manifest_.tile_begins.push_back(tile.begin);
-  manifest_.clock_hz = machine.config().clocks.core_hz;
-  const SlotModule& slot = pipeline.slot(stage);
-  manifest_.interval = usual_interval(slot.stage->schedule());
-  manifest_.latency = slot.latency;
-  manifest_.look_ahead = slot.look_ahead;
-  for (const TokenPort& port : pipeline.ports(stage))
-    ports_.push_back(std::make_unique<Port>(port, dates, folder));
+    : machine_(machine), manifest_(stage_manifest(machine, stage)) {
+  const std::vector<TokenPort> ports = machine.pipeline().ports(stage);
+  for (std::size_t i = 0; i < ports.size(); ++i)
+    ports_.push_back(std::make_unique<Port>(manifest_.streams[i], ports[i], dates, folder));
 }
 
 VectorCapture::~VectorCapture() = default;
@@ -139,6 +152,7 @@ VectorCapture::~VectorCapture() = default;
 VectorManifest VectorCapture::finish(std::int64_t frames) {
   machine_.dataflow().bring_up_to_date();
   manifest_.frames = frames;
+  manifest_.streams.clear();
   for (const auto& port : ports_) {
     port->words.flush();
     if (port->times) port->times->flush();

@@ -34,9 +34,13 @@ class VectorCapture {
   std::vector<std::unique_ptr<Port>> ports_;
 };
 
+/// A stage of the machine as a manifest has it, with its streams, of which no token has passed yet.
+VectorManifest stage_manifest(const Machine& machine, const std::string& stage);
+
 /// Throws UserError when the pipeline has no such stage, naming the nearest, or when its tokens are not known
 /// as they lie on wires.
-void check_vectors(const Machine& machine, const std::string& stage);
+/// `option`: that names it.
+void check_vectors(const Machine& machine, const std::string& stage, const char* option);
 
 /// How the files of vectors end, but for the manifest.
 inline constexpr std::array kVectorEndings{".memh", ".dates", "_tb.sv", "_stub.sv"};

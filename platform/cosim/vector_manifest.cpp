@@ -73,7 +73,9 @@ VectorStream read_stream(const Json& in) {
   return stream;
 }
 
-VectorManifest read(const Json& in) {
+}  // namespace
+
+VectorManifest vector_manifest(const Json& in) {
   VectorManifest manifest;
   manifest.program = in.at("program").get<std::string>();
   manifest.stage = in.at("stage").get<std::string>();
@@ -92,7 +94,10 @@ VectorManifest read(const Json& in) {
   return manifest;
 }
 
-}  // namespace
+std::uint64_t VectorManifest::pass_tokens(const VectorStream& stream) const {
+  if (stream.shape.row_tokens == 0) return stream.frame_tokens;
+  return std::max<std::uint64_t>(stream.frame_tokens / tile_begins.size(), 1);
+}
 
 ValuePlace VectorManifest::place(const VectorStream& stream, std::uint64_t token, std::size_t field) const {
   const TokenShape& shape = stream.shape;
@@ -101,7 +106,7 @@ ValuePlace VectorManifest::place(const VectorStream& stream, std::uint64_t token
   place.frame = static_cast<std::int64_t>(token / stream.frame_tokens);
   std::uint64_t rest = token % stream.frame_tokens;
   if (shape.row_tokens == 0) return place;
-  const std::uint64_t tile_tokens = std::max<std::uint64_t>(stream.frame_tokens / tile_begins.size(), 1);
+  const std::uint64_t tile_tokens = pass_tokens(stream);
   const std::uint64_t tile = rest / tile_tokens;
   rest %= tile_tokens;
   place.tile = static_cast<std::int64_t>(tile);
@@ -171,7 +176,7 @@ VectorManifest read_vector_manifest(const std::filesystem::path& folder) {
           fmt::format("{}: vectors of version {}, this program reads version {}; run parallax vectors again",
                       path.string(), version, VectorManifest::kVersion));
     }
-    return read(tree);
+    return vector_manifest(tree);
   } catch (const Json::exception& error) {
     throw damaged(error.what());
   } catch (const UserError& error) {

@@ -55,12 +55,16 @@ struct VectorManifest {
   std::uint64_t look_ahead = 0;         ///< tokens of pixels that are read beyond the one that is written
   std::vector<VectorStream> streams{};  ///< inputs first
 
+  /// Tokens that pass in one go over the image, or over a tile of it where the stage knows rows.
+  std::uint64_t pass_tokens(const VectorStream& stream) const;
   ValuePlace place(const VectorStream& stream, std::uint64_t token, std::size_t field) const;
   /// By the name of the stream, of one that gets the same tokens, or of the port; nullptr if there is none.
   const VectorStream* find(const std::string& name) const;
 };
 
 nlohmann::ordered_json to_json(const VectorManifest& manifest);
+/// What to_json() wrote. Throws nlohmann::json::exception or UserError for other trees.
+VectorManifest vector_manifest(const nlohmann::ordered_json& tree);
 
 /// Throws UserError when there is none, it is damaged, or of another version.
 VectorManifest read_vector_manifest(const std::filesystem::path& folder);

@@ -103,6 +103,13 @@ void check_report(const RunOptions& options) {
     throw UserError("--report and --no-verdict exclude each other: it says what each limit costs");
 }
 
+// A circuit works on values, and a machine without it says nothing of it.
+void check_circuit(const RunOptions& options) {
+  if (options.circuit.circuit.empty()) return;
+  const char* const other = options.timing_only ? "--timing-only" : options.report ? "--report" : nullptr;
+  if (other != nullptr) throw UserError(fmt::format("--circuit and {} exclude each other", other));
+}
+
 }  // namespace
 
 ImageLimits largest_images(const MachineConfig& config) {
@@ -115,6 +122,7 @@ ImageLimits largest_images(const MachineConfig& config) {
 
 void check_options(const RunOptions& options) {
   check_timing_only(options);
+  check_circuit(options);
   check_trace(options);
   check_report(options);
   if (options.left.empty() != options.right.empty()) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "platform/config/configuration.hpp"
+#include "platform/input/circuit_options.hpp"
 #include "platform/scene/scene_config.hpp"
 #include "platform/tracing/trace_options.hpp"
 
@@ -35,6 +36,7 @@ struct RunOptions {
   std::string cameras;  ///< "2,3": of a calibration with several
   std::string map;
   bool fit = false;
+  CircuitOptions circuit;
   // Output.
   bool timing_only = false;       ///< no images are computed
   std::vector<std::string> vary;  ///< "key=v1,v2,...": a grid of timing-only runs

@@ -139,7 +139,7 @@ Pipeline::Pipeline(const sc_core::sc_module_name& name, const MachineConfig& con
   wiring_.build();
   results_ = &wiring_.stream<Disparity>(results);
   for (const auto& slot : wiring_.slots()) {
-    if (slot->content.stage == nullptr && context.pixels_per_token > 1) {
+    if (!slot->content.takes_tokens && context.pixels_per_token > 1) {
       throw std::logic_error(
           fmt::format("what stands in the slot {} works in kernel time, value by value: "
                       "pipeline.pixels_per_token must be 1",
@@ -322,6 +322,11 @@ void Pipeline::bind(StreamOut<std::uint8_t>& left, StreamOut<std::uint8_t>& righ
 }
 
 bool Pipeline::is_matcher(const Stage& stage) const { return std::string("matching") == stage.basename(); }
+
+bool Pipeline::values_in_time() const {
+  return std::all_of(wiring_.slots().begin(), wiring_.slots().end(),
+                     [](const auto& slot) { return slot->content.stage != nullptr; });
+}
 
 void Pipeline::configure(const AlgorithmParameters& parameters) {
   const bool changed = !(parameters == parameters_);

@@ -52,6 +52,9 @@ class Pipeline final : public sc_core::sc_module {
   const StageInfo& last_filter() const { return last_filter_; }
   /// Whether `stage` stands in the slot of the matcher.
   bool is_matcher(const Stage& stage) const;
+  /// Whether the values of all tokens come before their dates. Not where a block in kernel time, or a
+  /// circuit, passes them on one by one: what works on rows behind it has them when the row is complete.
+  bool values_in_time() const;
   /// Upstream to downstream. Blocks in kernel time that replace stages are not among them.
   std::vector<StageInfo> stages() const;
   /// The names of the slots, upstream to downstream.

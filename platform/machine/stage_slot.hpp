@@ -22,8 +22,11 @@ struct MachineConfig;
 /// there ("in_left", say), and take the same tokens.
 struct SlotModule {
   std::unique_ptr<sc_core::sc_module> module;
-  /// The same, if it is one; else reports leave it out, and a token must be one pixel (StageContext).
+  /// The same, if it is one; else reports leave it out.
   const Stage* stage = nullptr;
+  /// Whether it takes tokens of several pixels (StageContext), as stages do. A block that reads and writes
+  /// values one by one does not.
+  bool takes_tokens = false;
   std::uint64_t look_ahead = 0;  ///< tokens of pixels that it has read beyond the one that it writes
   std::uint64_t latency = 0;     ///< cycles of the core's clock from reading to writing
   Bits storage{0};               ///< line buffers and the like
@@ -59,6 +62,7 @@ template <class S>
 SlotModule slot_module(std::unique_ptr<S> stage) {
   SlotModule slot;
   slot.stage = stage.get();
+  slot.takes_tokens = true;
   slot.latency = stage->latency();
   if (stage->writing_side() != nullptr) slot.latency += stage->writing_side()->latency();
   if constexpr (detail::HasLookAhead<S>::value) slot.look_ahead = stage->look_ahead();

@@ -138,6 +138,7 @@ void StereoCore::start_output(std::int64_t frame, const FrameCommand& command) {
     DmaJob result = output_job(tile);
     result.address += command.output;
     result.values = hooks_.has_values(frame);
+    result.late_values = !pipeline_.values_in_time();
     if (&tile == &input_.tiles.tiles.back()) {
       result.done = [this, frame] { written(frame); };
       result.progress = output_progress_;

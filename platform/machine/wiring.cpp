@@ -50,12 +50,13 @@ std::vector<TokenPort> Wiring::ports(const std::string& slot) const {
       same->streams.push_back(end.stream);
       continue;
     }
-    const bool is_input = dynamic_cast<const StreamPort&>(port(end.port)).is_input();
     all.push_back({end.port.port,
-                   is_input,
+                   end.is_input,
                    {end.stream},
                    end.shape,
-                   [is_input, tap = end.tap](const TokenTap::Take& take) { return tap(is_input, take); }});
+                   [is_input = end.is_input, tap = end.tap](const TokenTap::Take& take) {
+                     return tap(is_input, take);
+                   }});
   }
   std::stable_partition(all.begin(), all.end(), [](const TokenPort& each) { return each.is_input; });
   return all;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "platform/config/stream_config.hpp"
+#include "platform/machine/circuit_end.hpp"
 #include "platform/machine/stage_slot.hpp"
 #include "platform/machine/token_port.hpp"
 #include "platform/machine/token_shape.hpp"
@@ -71,9 +72,9 @@ class Wiring {
   /// One end of a stream that is there already: at a port of the memory.
   template <class T>
   void attach(Stream<T>& stream, const TokenShape& shape, const PortName& port) {
-    bind<StreamOut<T>, StreamIn<T>>(stream, port);
+    const bool is_input = bind<T>(stream, shape, port);
     ends_.push_back(
-        {port, stream.basename(), shape, [&stream, shape](bool reads, const TokenTap::Take& take) {
+        {port, is_input, stream.basename(), shape, [&stream, shape](bool reads, const TokenTap::Take& take) {
            return std::make_unique<ValueTap<T>>(stream, shape, reads, take);
          }});
   }
@@ -101,6 +102,7 @@ class Wiring {
 
   struct End {  // of a stream
     PortName port;
+    bool is_input;
     std::string stream;
     TokenShape shape;
     std::function<std::unique_ptr<TokenTap>(bool reads, const TokenTap::Take& take)> tap;
@@ -109,16 +111,23 @@ class Wiring {
   std::size_t index(const std::string& slot) const;
   sc_core::sc_object& port(const PortName& name) const;
   [[noreturn]] static void misfit(const PortName& name);
-  template <class Out, class In, class S>
-  void bind(S& stream, const PortName& name) const {
-    sc_core::sc_object& found = port(name);
-    if (auto* out = dynamic_cast<Out*>(&found)) {
-      (*out)(stream);
-    } else if (auto* in = dynamic_cast<In*>(&found)) {
-      (*in)(stream);
-    } else {
-      misfit(name);
+  // Says whether the port is an input.
+  template <class T>
+  bool bind(Stream<T>& stream, const TokenShape& shape, const PortName& name) const {
+    if (auto* circuit = dynamic_cast<CircuitEnds*>(slots_[index(name.slot)]->content.module.get())) {
+      const bool is_input = name.port.rfind("in_", 0) == 0;
+      circuit->add(std::make_unique<ValueEnd<T>>(name.port, is_input, shape, stream));
+      return is_input;
     }
+    sc_core::sc_object& found = port(name);
+    if (auto* out = dynamic_cast<StreamOut<T>*>(&found)) {
+      (*out)(stream);
+      return false;
+    }
+    auto* in = dynamic_cast<StreamIn<T>*>(&found);
+    if (in == nullptr) misfit(name);
+    (*in)(stream);
+    return true;
   }
 
   const StreamConfig& streams_config_;

@@ -150,7 +150,7 @@ TEST_F(Vectors, ReplaceThoseOfAnEarlierCommandAndNothingElse) {
 
 TEST_F(Vectors, WhatCannotBeAskedFor) {
   EXPECT_EQ(refusal("vectors --stage censor --size 64x48 --out v"),
-            "--stage is 'censor'; the nearest of this machine's stages is census\n");
+            "--stage: there is no stage 'censor'; the nearest of this machine's is census\n");
   EXPECT_EQ(refusal("vectors --size 64x48 --out v"), "--stage is required\n");
   EXPECT_EQ(refusal("vectors --stage census --size 64x48"), "--out is required\n");
   EXPECT_EQ(refusal("vectors --stage matching --size 64x48 --out v --set matching.parallel_rows=2"),

@@ -48,6 +48,16 @@ TEST(Replacement, ABlockInKernelTimeGivesTheSameValues) {
   EXPECT_LE(other.period, usual.period + kWidth);
 }
 
+// A row is several bursts: the first ones are due before the stages behind the block, which work on whole
+// rows, have their values.
+TEST(Replacement, ABlockInKernelTimeMayBeBehindWithItsValues) {
+  const MachineConfig config = small_machine({"dma.output.burst_bytes=16"});
+  const MachineRun usual = run_machine(config);
+  const MachineRun other = run_machine(config, {{"census", clocked_census(config)}});
+  ASSERT_EQ(other.fault, "");
+  EXPECT_EQ(other.disparities, usual.disparities);
+}
+
 TEST(Replacement, TheLastStageIsReplacedLikeTheOthers) {
   const MachineConfig config = small_machine();
   const StageFactory packing = [&](const std::string& name, const StageContext& context) {

@@ -53,6 +53,7 @@ class BurstSink final : public sc_core::sc_module {
 /// Sends values, then as many bursts as it is told.
 class BurstSource final : public sc_core::sc_module {
  public:
+  std::size_t late = 0;  // of the values, those that are sent with the last burst
   StreamOut<std::uint8_t> out{"out"};
   BurstSource(const sc_core::sc_module_name& name, Values values, std::uint64_t bursts)
       : sc_module(name), values_(std::move(values)), bursts_(bursts) {
@@ -62,9 +63,11 @@ class BurstSource final : public sc_core::sc_module {
 
  private:
   void run() {
-    if (!values_.empty()) out.send_row(values_.data(), values_.size());
+    const std::size_t early = values_.size() - late;
+    if (early > 0) out.send_row(values_.data(), early);
     for (std::uint64_t i = 0; i < bursts_; ++i) {
       out[0]->wait_writable();
+      if (i + 1 == bursts_ && late > 0) out.send_row(values_.data() + early, late);
       out[0]->commit();
     }
   }

@@ -67,6 +67,36 @@ TEST(DmaWriter, ReportsABurstWithoutItsBytes) {
   }
 }
 
+// A burst keeps its date, and its bytes come to the memory when they are there.
+TEST(DmaWriter, TakesBytesAfterTheirDateWhereItIsTold) {
+  const auto run = [](std::size_t late, bool told) {
+    return in_child([=] {
+      const Values values = pattern(120);
+      WriterBench<RandomMemory> b(engine(32, 2, 4), values, 4, 4096u, 7u, 70);
+      b.source.late = late;
+      DmaJob job{64, {120}, true, nullptr};
+      job.late_values = told;
+      b.writer.start(job);
+      try {
+        sc_core::sc_start();
+      } catch (const sc_core::sc_report& report) {
+        return std::string(report.get_msg_type());
+      }
+      Values expected(4096);
+      std::copy(values.begin(), values.end(), expected.begin() + 64);
+      std::string found = b.memory.bytes == expected ? "" : "values\n";
+      for (const Cycles date : b.dates.read) found += std::to_string(date.count()) + " ";
+      return found;
+    });
+  };
+  const std::string in_time = run(0, false);
+  EXPECT_EQ(run(0, true), in_time);
+  EXPECT_EQ(run(1, true), in_time) << "the last burst's";
+  EXPECT_EQ(run(100, true), in_time);
+  EXPECT_EQ(run(120, true), in_time);
+  EXPECT_EQ(run(100, false), "/parallax/dma/values");
+}
+
 TEST(BurstCount, RoundsUp) {
   EXPECT_EQ(burst_count(0, Bytes(128)), 0u);
   EXPECT_EQ(burst_count(1, Bytes(128)), 1u);

@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "platform/cosim/circuit_build.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <regex>
+#include <sstream>
+#include <string_view>
+#include <utility>
+
+#include "tlm/error.hpp"
+
+extern char** environ;
+
+namespace parallax {
+namespace {
+
+namespace fs = std::filesystem;
+using Words = std::vector<std::string>;
+
+// A folder for what is made on the way.
+class BuildFolder {
+ public:
+  BuildFolder() {
+    std::string name = (fs::temp_directory_path() / "parallax-circuit-XXXXXX").string();
+    if (::mkdtemp(name.data()) == nullptr)
+      throw UserError(fmt::format("cannot make a folder in {}: {}", fs::temp_directory_path().string(),
+                                  std::strerror(errno)));
+    path_ = name;
+  }
+  ~BuildFolder() {
+    std::error_code ignored;
+    if (!path_.empty()) fs::remove_all(path_, ignored);
+  }
+  BuildFolder(const BuildFolder&) = delete;
+  BuildFolder& operator=(const BuildFolder&) = delete;
+  const fs::path& path() const { return path_; }
+  fs::path keep() { return std::exchange(path_, {}); }
+
+ private:
+  fs::path path_;
+};
+
+std::string content(const fs::path& file) {
+  std::ifstream in(file);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+// The line in which a tool says what is wrong: the first with the word, else the last one.
+std::string complaint(const std::string& said, const char* word) {
+  std::istringstream lines(said);
+  std::string last;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.find(word) != std::string::npos) return line;
+    if (!line.empty()) last = line;
+  }
+  return last;
+}
+
+// Runs a tool; what it says goes into a file of the folder. UserError when it is missing or fails.
+std::string run_tool(const Words& words, const fs::path& folder, const char* package,
+                     const char* error_word) {
+  const fs::path log = folder / "log";
+  posix_spawn_file_actions_t actions;
+  ::posix_spawn_file_actions_init(&actions);
+  ::posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  ::posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, log.c_str(), O_WRONLY | O_CREAT | O_TRUNC,
+                                     0600);
+  ::posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
+  std::vector<char*> argv;
+  Words copies = words;
+  for (std::string& word : copies) argv.push_back(word.data());
+  argv.push_back(nullptr);
+  pid_t process = -1;
+  const int failed = ::posix_spawnp(&process, argv[0], &actions, nullptr, argv.data(), environ);
+  ::posix_spawn_file_actions_destroy(&actions);
+  if (failed == ENOENT) {
+    throw UserError(fmt::format("{} is not installed, which circuits in Verilog need: apt-get install {}",
+                                words[0], package));
+  }
+  if (failed != 0) throw UserError(fmt::format("cannot run {}: {}", words[0], std::strerror(failed)));
+  int status = 0;
+  while (::waitpid(process, &status, 0) < 0 && errno == EINTR) continue;
+  const std::string said = content(log);
+  if (status != 0)
+    throw UserError(fmt::format("{}: {}", words[0], excerpt(complaint(said, error_word), 600)));
+  return said;
+}
+
+// A pin as the header of Verilator's class declares it: VL_IN8(&clk,0,0), VL_OUTW(&q,351,0,11).
+struct DeclaredPin {
+  std::string name;
+  bool is_input;
+  unsigned width;
+};
+
+std::vector<DeclaredPin> pins_of(const std::string& header) {
+  static const std::regex declaration(R"(VL_(IN|OUT|INOUT)(8|16|64|W)?\((\(?)&(\w+)(\)[^,]*)?,(\d+),(\d+))");
+  std::vector<DeclaredPin> pins;
+  for (auto at = std::sregex_iterator(header.begin(), header.end(), declaration);
+       at != std::sregex_iterator(); ++at) {
+    const std::smatch& match = *at;
+    const std::string name = match[4];
+    if (match[1] == "INOUT" || match[3] != "") {
+      throw UserError(
+          fmt::format("the circuit's pin {} is {}: pins are inputs and outputs of one dimension; "
+                      "put a module around it",
+                      name, match[1] == "INOUT" ? "an inout" : "an array"));
+    }
+    const unsigned high = static_cast<unsigned>(std::stoul(match[6]));
+    const unsigned low = static_cast<unsigned>(std::stoul(match[7]));
+    pins.push_back({name, match[1] == "IN", high - low + 1});
+  }
+  return pins;
+}
+
+// The one unit that is compiled: the circuit's C++, Verilator's library, and the interface.
+std::string unit(const fs::path& folder, const std::string& module, const std::vector<DeclaredPin>& pins) {
+  std::string text =
+      fmt::format("#include \"V{0}.h\"\n#define PARALLAX_TOP V{0}\n#define PARALLAX_NAME \"{0}\"\n", module);
+  text += fmt::format("#define PARALLAX_PIN_COUNT {}\n#define PARALLAX_PINS(TOP) \\\n", pins.size());
+  for (const DeclaredPin& pin : pins) {
+    text += fmt::format("  {{\"{0}\", {1}, {2}, &TOP.{0}}}, \\\n", pin.name, pin.is_input ? 1 : 0, pin.width);
+  }
+  text += "\n#include \"verilated_circuit.hpp\"\n";
+  std::vector<std::string> files;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    if (entry.path().extension() == ".cpp" && name.rfind("V" + module, 0) == 0) files.push_back(name);
+  }
+  std::sort(files.begin(), files.end());
+  for (const std::string& file : files) text += fmt::format("#include \"{}\"\n", file);
+  return text + "#include \"verilated.cpp\"\n#include \"verilated_threads.cpp\"\n";
+}
+
+// Where circuit.h and its neighbour lie, beside the program as presets do.
+fs::path interface_folder() {
+  std::error_code failed;
+  const fs::path program = fs::read_symlink("/proc/self/exe", failed);
+  const fs::path beside = program.parent_path() / "circuit";
+  const fs::path installed = program.parent_path() / ".." / "share" / "parallax" / "circuit";
+  for (const fs::path& folder : {beside, installed}) {
+    if (fs::exists(folder / "circuit.h", failed)) return folder.lexically_normal();
+  }
+  throw UserError(fmt::format("circuit.h is neither in {} nor in {}: install parallax as a whole",
+                              beside.string(), installed.lexically_normal().string()));
+}
+
+// Verilator names its files after the top module: V, its name, and what they are.
+std::string top_in(const fs::path& folder) {
+  constexpr std::string_view kRoot = "___024root.h";
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    if (name.size() > kRoot.size() + 1 && name.substr(name.size() - kRoot.size()) == kRoot)
+      return name.substr(1, name.size() - kRoot.size() - 1);
+  }
+  throw UserError("Verilator has written no top module");
+}
+
+}  // namespace
+
+void build_circuit(const std::vector<fs::path>& sources, const CircuitOptions& options,
+                   const fs::path& library) {
+  const fs::path interface = interface_folder();
+  BuildFolder folder;
+  Words words{"verilator", "--cc",        "--no-timing", "-Wno-fatal", "--x-assign",
+              "unique",    "--x-initial", "unique",      "--Mdir",     folder.path().string()};
+  if (!options.top.empty()) words.insert(words.end(), {"--top-module", options.top});
+  for (const std::string& parameter : options.parameters) {
+    const std::size_t equals = parameter.find('=');
+    if (equals == 0 || equals == std::string::npos || equals + 1 == parameter.size()) {
+      throw UserError(
+          fmt::format("--circuit-parameter: '{}' is not NAME=VALUE, as WIDTH=640", excerpt(parameter)));
+    }
+    words.push_back("-G" + parameter);
+  }
+  for (const fs::path& source : sources) {
+    words.push_back(source.string());
+    if (const fs::path parent = source.parent_path(); !parent.empty())
+      words.push_back("-I" + parent.string());
+  }
+  run_tool(words, folder.path(), "verilator", "%Error");
+  std::string root =
+      run_tool({"verilator", "--getenv", "VERILATOR_ROOT"}, folder.path(), "verilator", "%Error");
+  root.erase(root.find_last_not_of(" \n") + 1);
+  const std::string top = top_in(folder.path());
+  const std::vector<DeclaredPin> pins = pins_of(content(folder.path() / ("V" + top + ".h")));
+  if (pins.empty())
+    throw UserError(fmt::format("{}: the circuit's top module has no pins", sources[0].string()));
+  const fs::path source = folder.path() / "circuit.cpp";
+  std::ofstream(source) << unit(folder.path(), top, pins);
+  const fs::path made = folder.path() / "circuit.so";
+  run_tool({"g++", "-std=c++17", "-shared", "-fPIC", "-O2", "-fvisibility=hidden", "-w", "-DVL_USER_FINISH",
+            "-DVL_USER_STOP", "-DVL_USER_FATAL", "-I" + folder.path().string(), "-I" + interface.string(),
+            "-I" + root + "/include", "-I" + root + "/include/vltstd", "-o", made.string(), source.string(),
+            "-pthread"},
+           folder.path(), "g++", "error");
+  std::error_code failed;
+  fs::copy_file(made, library, fs::copy_options::overwrite_existing, failed);
+  if (failed) throw UserError(fmt::format("cannot write {}: {}", library.string(), failed.message()));
+}
+
+CircuitFile::CircuitFile(const std::vector<fs::path>& files, const CircuitOptions& options) {
+  for (const fs::path& file : files) {
+    if (!fs::is_regular_file(file))
+      throw UserError(fmt::format("--circuit: {} is no file", excerpt(file.string(), 300)));
+  }
+  if (files.size() == 1 && files[0].extension() == ".so") {
+    path_ = files[0];
+    return;
+  }
+  BuildFolder folder;
+  path_ = folder.path() / "circuit.so";
+  build_circuit(files, options, path_);
+  folder_ = folder.keep();
+}
+
+CircuitFile::~CircuitFile() {
+  std::error_code ignored;
+  if (!folder_.empty()) fs::remove_all(folder_, ignored);
+}
+
+}  // namespace parallax

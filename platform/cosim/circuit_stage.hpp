@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <systemc>
+#include <vector>
+
+#include "modules/raster_schedule.hpp"
+#include "platform/cosim/circuit_library.hpp"
+#include "platform/cosim/circuit_pins.hpp"
+#include "platform/cosim/dump_file.hpp"
+#include "platform/cosim/vector_manifest.hpp"
+#include "platform/input/circuit_options.hpp"
+#include "platform/machine/circuit_end.hpp"
+#include "tlm/dataflow.hpp"
+
+namespace parallax {
+
+/// A circuit in the place of a stage, clocked cycle by cycle of the core's clock.
+///
+/// In cycle c an input's valid is 1 when the stream's next token can be read then, an output's ready when the
+/// stream has room; a token passes where both are 1, and that is the date of its reading or writing. So the
+/// circuit meets the FIFOs of the machine and nothing else: no register, no place, no cycle is added. Reset
+/// lies before cycle 0.
+///
+/// A handshake follows from the pins that there are. An output without ready cannot wait, nor can an input
+/// without valid: where there is no room, or no token, the clock stands still (the enable pin is 0, or, if
+/// there is none, there is no edge). Without valid at an output, its tokens are those that leave
+/// `CircuitOptions::latency` edges behind the token at the inputs.
+///
+/// When nothing has been due for a thousand cycles, as between frames, the clock stands until the next token.
+///
+/// It goes ahead of the kernel's time as long as the dates that it needs are known. Where one is not, the
+/// kernel's time comes to the cycle first, and the token is not there, or there is no room.
+class CircuitStage final : public sc_core::sc_module, public Actor, public CircuitEnds {
+ public:
+  /// `stage`: the model's, with the tokens of a frame. Tokens of the first `frames` frames have values.
+  /// `stop` is called once, when it cannot go on: fault() says why. All must outlive it.
+  CircuitStage(const sc_core::sc_module_name& name, Circuit& circuit, const CircuitPins& pins,
+               const VectorManifest& stage, const CircuitOptions& options, std::int64_t frames,
+               const StageContext& context, std::function<void()> stop);
+  ~CircuitStage() override;
+
+  void add(std::unique_ptr<CircuitEnd> end) override;
+  void advance() override;
+
+  /// What an output stream of the model's stage was given here, with the cycle of each token.
+  const Dump& written(const VectorStream& stream) const;
+  /// Why the circuit was given up: it hangs, has ended the simulation, or was asked for a value that is not
+  /// known; empty: it was not.
+  const std::string& fault() const { return fault_; }
+  /// The first breach of the handshake; empty: none.
+  const std::string& breach() const { return breach_; }
+  std::uint64_t cycles() const { return clocked_; }  ///< in which it was clocked
+
+ private:
+  struct Input;
+  struct Output;
+
+  void end_of_elaboration() override;
+  void start_of_simulation() override;
+  void resolve();
+  void go_on();
+  bool wakes();
+  bool all_known() const;
+  void wait_for_dates();
+  void step();
+  void offer(Input& input);
+  bool take(Input& input, bool stands);
+  bool put(Output& output, bool stands);
+  bool can_run() const;
+  void watch(Output& out);
+  void edge();
+  void give_up(const std::string& why);
+  std::string waits() const;
+  std::uint64_t begun() const;
+  bool owes() const;
+
+  Circuit& circuit_;
+  const CircuitPins& pins_;
+  const VectorManifest& stage_;
+  const CircuitOptions& options_;
+  const std::int64_t frames_;
+  const ClockDomain& clock_;
+  const std::function<void()> stop_;
+  const std::uint64_t flush_;  // tokens behind each pass
+
+  std::uint64_t timeout_ = 0;  // cycles
+
+  std::vector<std::unique_ptr<CircuitEnd>> ends_;
+  std::vector<std::unique_ptr<Input>> inputs_;
+  std::vector<std::unique_ptr<Output>> outputs_;
+  std::uint64_t steps_ = 0;    // of a circuit without valid at its outputs, in this pass
+  std::uint64_t of_pass_ = 0;  // of these, one pass over the image or a tile
+  bool needs_all_ = false;     // an output has no valid: there is a step only with a token at each input
+  Cycles cycle_{0};            // the next one
+  Cycles moved_{0};            // the last one in which a token passed,
+  Cycles idle_{0};             // and from which on the clock runs again after a rest
+  bool rests_ = false;
+  std::uint64_t clocked_ = 0;
+  sc_core::sc_time known_until_;  // every date before this is known
+  sc_core::sc_event timer_;
+  bool timer_runs_ = false;
+  std::string fault_;
+  std::string breach_;
+};
+
+}  // namespace parallax

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace parallax {
+
+/// What the user said of a circuit in the place of a stage.
+struct CircuitOptions {
+  std::string circuit;                  ///< STAGE=FILE[,FILE...]: a library, or Verilog; empty: none
+  std::string top;                      ///< the top module; empty: the only one
+  std::vector<std::string> parameters;  ///< NAME=VALUE, of Verilog
+  std::vector<std::string> pins;        ///< ROLE=PIN: "in_left.data=pixel", "clock=clk_i"
+  std::vector<std::string> constants;   ///< PIN=VALUE: inputs that stay as they are
+  std::uint64_t interval = 1;           ///< least cycles from one token to the next at an input, >= 1
+  std::uint64_t latency = 0;            ///< edges from a token to its result, of a circuit without valid
+  std::optional<std::uint64_t> flush;   ///< tokens of zeros behind each frame; none: `latency`
+  std::uint64_t skip = 0;               ///< outputs before a frame's first token that count for nothing
+  std::uint64_t stall = 0;              ///< of 1000 cycles, those in which a side is stalled, at random
+  std::uint64_t seed = 1;               ///< of the stalls, and of registers without an initial value
+  /// Cycles in which some token must pass while one is due, >= 1; none: 100000, or four for each token of a
+  /// frame.
+  std::optional<std::uint64_t> timeout;
+  std::optional<std::int64_t> bound;  ///< cycles by which a token may be later than the model's
+};
+
+}  // namespace parallax

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+// Circuits in the place of a stage of the machine: what a run says of their values, their dates and their
+// handshake.
+#include <gtest/gtest.h>
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "tests/cli/program.hpp"
+#include "tests/paths.hpp"
+
+namespace parallax::test {
+namespace circuit_rtl_test {
+
+constexpr const char* kMachine = "run --size 64x48 --no-verdict --timing-frames 1 ";
+
+std::string rtl(const std::string& name) { return source_path("tests/rtl/" + name); }
+
+// With a fault of census_5x5.sv, or none.
+std::string census(const Program& program, const std::string& fault = "") {
+  std::ifstream in(rtl("census_5x5.sv"));
+  std::ofstream out(program / "census.sv");
+  if (!fault.empty()) out << "`define " << fault << "\n";
+  out << in.rdbuf();
+  return "--circuit census=census.sv ";
+}
+
+std::size_t count(const std::string& text, const std::string& part) {
+  std::size_t number = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++number;
+  return number;
+}
+
+TEST(CircuitRun, ACircuitThatIsRightIsEqualAtOtherDates) {
+  const Program program;
+  const Outcome outcome = program(kMachine + census(program));
+  EXPECT_EQ(outcome.code, 0) << outcome.err << outcome.out;
+  EXPECT_EQ(outcome.err, "");
+  EXPECT_EQ(count(outcome.out, "codes: equal, 3072 tokens\n"), 2U) << outcome.out;
+  // The model's stage has a latency of 4 cycles, this one of 2.
+  EXPECT_EQ(count(outcome.out, "each at least 2 cycles earlier than the model\n"), 2U) << outcome.out;
+}
+
+TEST(CircuitRun, TheRestOfTheMachineGoesOnWithIts) {
+  const Program program;
+  ASSERT_EQ(program(std::string(kMachine) + "--out model -q").code, 0);
+  ASSERT_EQ(program(kMachine + census(program) + "--out circuit -q").code, 0);
+  EXPECT_EQ(program.read("model/disparity.png"), program.read("circuit/disparity.png"));
+  ASSERT_EQ(program(kMachine + census(program, "FAULT_BORDER") + "--out wrong -q").code, 1);
+  EXPECT_NE(program.read("model/disparity.png"), program.read("wrong/disparity.png"));
+}
+
+TEST(CircuitRun, StallsChangeDatesAlone) {
+  const Program program;
+  const Outcome outcome = program(kMachine + census(program) + "--circuit-stall 400 --circuit-seed 5 --json");
+  EXPECT_EQ(outcome.code, 0) << outcome.err << outcome.out;
+  const nlohmann::json circuit = nlohmann::json::parse(outcome.out.substr(outcome.out.rfind("\n{") + 1));
+  EXPECT_TRUE(circuit.at("as_model").get<bool>());
+  EXPECT_GT(circuit.at("streams").at(0).at("latest").at("cycles").get<int>(), 0);
+}
+
+struct Fault {
+  const char* name;
+  const char* said;  // by the run, of what differs
+};
+
+class CircuitFault : public ::testing::TestWithParam<Fault> {};
+
+TEST_P(CircuitFault, IsFoundAndNamed) {
+  const Program program;
+  const Outcome outcome = program(kMachine + census(program, GetParam().name));
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_NE(outcome.out.find(GetParam().said), std::string::npos) << outcome.err << outcome.out;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, CircuitFault,
+    ::testing::Values(
+        Fault{"FAULT_BORDER", "pattern             only the rim differs, 2 px wide\n"},
+        Fault{"FAULT_HANGS", "since cycle 111025: left_rectified has no token (token 1200 of frame 0"},
+        Fault{"FAULT_LOST", "pattern             token 640 (frame 0, row 10, column 0) is lost"},
+        Fault{
+            "FAULT_WITHDRAWN",
+            "handshake           left_codes: valid goes from 1 to 0 before token 639 was taken, in cycle "}),
+    [](const auto& each) { return std::string(each.param.name); });
+
+// What is wrong before anything runs.
+struct Refused {
+  const char* name;
+  const char* arguments;
+  const char* message;
+};
+
+class CircuitRefused : public ::testing::TestWithParam<Refused> {};
+
+TEST_P(CircuitRefused, InOneLine) {
+  const Program program;
+  std::ofstream(program / "no.so") << "nothing";
+  std::ofstream(program / "wrong.sv") << "module wrong; endmodul\n";
+  std::ofstream(program / "narrow.sv")
+      << "module narrow(input clk, input rst, input [7:0] in_disparity_data, input in_disparity_valid,\n"
+         "  output in_disparity_ready, output [10:0] out_disparity_data, output out_disparity_valid,\n"
+         "  input out_disparity_ready, input mode);\nendmodule\n";
+  const Outcome outcome = program(kMachine + std::string(GetParam().arguments));
+  EXPECT_EQ(outcome.code, 2) << outcome.out;
+  EXPECT_EQ(outcome.err.rfind(std::string("parallax: error: ") + GetParam().message, 0), 0U) << outcome.err;
+  EXPECT_EQ(count(outcome.err, "\n"), 1U) << outcome.err;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, CircuitRefused,
+    ::testing::Values(
+        Refused{"NoStage", "--circuit census.sv", "--circuit: 'census.sv' is not STAGE=FILE[,FILE...], as "},
+        Refused{"NoFile", "--circuit census=none.sv", "--circuit: none.sv is no file"},
+        Refused{"NoLibrary", "--circuit census=no.so", "circuit "},
+        Refused{"Verilog", "--circuit census=wrong.sv", "verilator: %Error: wrong.sv:1:"},
+        Refused{"Width", "--circuit noise_reduction=narrow.sv",
+                "circuit narrow: pin in_disparity_data has 8 bits; as in_disparity.data it must have 12"},
+        Refused{"Parameter", "--circuit census=wrong.sv --circuit-parameter WIDTH",
+                "--circuit-parameter: 'WIDTH' is not NAME=VALUE, as WIDTH=640"}),
+    [](const auto& each) { return std::string(each.param.name); });
+
+}  // namespace circuit_rtl_test
+}  // namespace parallax::test
