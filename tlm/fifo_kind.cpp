@@ -21,7 +21,7 @@ const char* name_of(FifoKind kind) {
   throw std::logic_error("no such kind of FIFO");
 }
 
-FifoOffsets offsets_of(FifoKind kind, std::uint32_t synchroniser_stages) {
+FifoOffsets offsets_of(FifoKind kind, const SynchroniserStages& stages) {
   switch (kind) {
     case FifoKind::kFree:
       break;
@@ -32,7 +32,7 @@ FifoOffsets offsets_of(FifoKind kind, std::uint32_t synchroniser_stages) {
     case FifoKind::kBlockRam:
       return {2, 1};
     case FifoKind::kAsynchronous:
-      return {1 + synchroniser_stages, 1 + synchroniser_stages};
+      return {1 + stages.to_reader, 1 + stages.to_writer};
   }
   throw std::logic_error("this kind of FIFO has no offsets of its own");
 }

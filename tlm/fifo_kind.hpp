@@ -21,11 +21,20 @@ enum class FifoKind {
   /// A RAM whose clocked read port is the output register. Readable at w + 2, writable at r + 1; the token in
   /// the output register counts towards the depth. One clock.
   kBlockRam,
-  /// Gray-coded pointers, each synchronised to the other side by `synchroniser_stages` registers that the
-  /// flags are derived from without a further one. The first edge of the other clock strictly after w (or r)
-  /// captures the pointer; the token is readable, the slot writable, `synchroniser_stages` edges later. Also
-  /// where both clocks have the same frequency, or are one.
+  /// Gray-coded pointers, each synchronised to the other side by registers (SynchroniserStages) that the
+  /// flags
+  /// are derived from without a further one. The first edge of the other clock strictly after w (or r)
+  /// captures the pointer; the token is readable, the slot writable, as many edges later as there are
+  /// registers. Also where both clocks have the same frequency, or are one.
   kAsynchronous,
+};
+
+/// Registers that the pointers of an asynchronous FIFO pass: each way 1 to 63. What else delays a token, such
+/// as registers behind the RAM, counts with those of its way.
+struct SynchroniserStages {
+  static constexpr std::uint32_t kMost = 63;
+  std::uint32_t to_reader = 2;  ///< the write pointer, on its way to the reader
+  std::uint32_t to_writer = 2;  ///< the read pointer, on its way to the writer
 };
 
 /// Delays of a FIFO, in edges of the clock of the side that waits.
@@ -37,8 +46,8 @@ struct FifoOffsets {
 /// As in the configuration: "registered".
 const char* name_of(FifoKind kind);
 
-/// What the rule of a kind other than kFree comes to; `synchroniser_stages` matters to kAsynchronous only.
+/// What the rule of a kind other than kFree comes to; `stages` matters to kAsynchronous only.
 /// std::logic_error for kFree.
-FifoOffsets offsets_of(FifoKind kind, std::uint32_t synchroniser_stages);
+FifoOffsets offsets_of(FifoKind kind, const SynchroniserStages& stages);
 
 }  // namespace parallax

@@ -141,7 +141,7 @@ bool Stage::fire() {
   if (starved > Cycles(0)) {
     if (latest->at_memory()) {
       input_wait = frame_begins ? StageActivity::kBlanking : StageActivity::kMemory;
-    } else if (latest->behind_synchroniser(inputs, free_)) {
+    } else if (latest->token_behind_synchroniser(inputs, free_)) {
       input_wait = StageActivity::kSynchroniser;
     }
     statistics_.of(input_wait) += starved;
@@ -266,8 +266,8 @@ bool Stage::write(Firing& firing, Cycles earliest) {
 // What a wait for room in `stream` counts as that began in cycle `wanted`.
 StageActivity Stage::wait_for_room(const StreamBase& stream, Cycles wanted) {
   if (stream.at_memory()) return StageActivity::kMemory;
-  return stream.behind_synchroniser(stream.writable_at(), wanted) ? StageActivity::kSynchroniser
-                                                                  : StageActivity::kBlocked;
+  return stream.slot_behind_synchroniser(stream.writable_at(), wanted) ? StageActivity::kSynchroniser
+                                                                       : StageActivity::kBlocked;
 }
 
 void Stage::note_write(std::uint32_t number, Cycles cycle) {

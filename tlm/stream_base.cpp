@@ -12,8 +12,6 @@
 namespace parallax {
 namespace {
 
-constexpr std::uint32_t kMostStages = 8;
-
 // Beyond the depth, a ring holds the dates that settle() has not counted yet, and the history in which
 // periodic motion is recognised.
 std::uint64_t ring_mask(std::uint32_t depth) {
@@ -41,9 +39,11 @@ FifoConfig checked(const char* name, FifoConfig config, const ClockDomain& write
                       "asynchronous one can",
                       name, name_of(config.kind), writer.name(), reader.name()));
     }
-    if (config.synchroniser_stages < 1 || config.synchroniser_stages > kMostStages) {
-      throw UserError(fmt::format("stream '{}': {} synchroniser stages are outside 1 to {}", name,
-                                  config.synchroniser_stages, kMostStages));
+    for (const std::uint32_t stages :
+         {config.synchroniser_stages.to_reader, config.synchroniser_stages.to_writer}) {
+      if (stages >= 1 && stages <= SynchroniserStages::kMost) continue;
+      throw UserError(fmt::format("stream '{}': {} synchroniser stages are outside 1 to {}", name, stages,
+                                  SynchroniserStages::kMost));
     }
     const FifoOffsets offsets = offsets_of(config.kind, config.synchroniser_stages);
     config.write_to_read = offsets.write_to_read;

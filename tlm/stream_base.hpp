@@ -27,8 +27,10 @@ struct FifoConfig {
   /// For kind kFree, 1 for others: edges of the writer's clock from the reading edge until the freed slot
   /// can be written. 1 = registered; 0 = in the same cycle, where both sides have one clock.
   std::uint32_t read_to_write = 1;
-  FifoKind kind = FifoKind::kFree;        ///< which circuit; fifo_kind.hpp states the rule of each
-  std::uint32_t synchroniser_stages = 2;  ///< registers that a pointer passes, for kind kAsynchronous; 1 to 8
+  FifoKind kind = FifoKind::kFree;           ///< which circuit; fifo_kind.hpp states the rule of each
+  SynchroniserStages synchroniser_stages{};  ///< for kind kAsynchronous
+  /// Cycles of the writer's clock, from 0 on, in which it takes nothing yet: those after its reset.
+  std::uint32_t not_ready_cycles = 0;
   /// One end is a memory port: who waits here waits for the memory (StageStatistics::memory).
   bool at_memory = false;
   /// It joins the two sides of a stage (Stage): no FIFO of the machine, reports leave it out.
@@ -94,8 +96,9 @@ class StreamListener {
 ///
 /// Contract: token i cannot be read before `write_to_read` reader edges after the edge that wrote it, nor
 /// written before `read_to_write` writer edges after the edge that read token i - depth; both follow from the
-/// kind of FIFO (fifo_kind.hpp). One token a cycle each way. Dates are handed in once, in order, as soon as
-/// they are known, which may be long before kernel time gets there.
+/// kind of FIFO (fifo_kind.hpp). No token before cycle `not_ready_cycles` of the writer's clock, and one a
+/// cycle each way. Dates are handed in once, in order, as soon as they are known, which may be long before
+/// kernel time gets there.
 class StreamBase : public sc_core::sc_prim_channel, public virtual sc_core::sc_interface {
  public:
   static constexpr std::uint32_t kLargestDepth = 1u << 24;  // tokens
@@ -116,11 +119,16 @@ class StreamBase : public sc_core::sc_prim_channel, public virtual sc_core::sc_i
   std::uint32_t depth() const { return config_.depth; }
   Bits width() const { return config_.width; }
   Bits storage() const { return config_.width * config_.depth; }
-  /// Whether a token (slot) that is there in cycle `date` of the reader's (writer's) clock, and was wanted
-  /// in cycle `wanted`, had been written (read) by then, so that it was the synchroniser alone that kept it
-  /// back.
-  bool behind_synchroniser(Cycles date, Cycles wanted) const {
-    return config_.kind == FifoKind::kAsynchronous && date - Cycles(config_.synchroniser_stages) <= wanted;
+  /// Whether the next token, which is there in cycle `date` of the reader's clock and was wanted in cycle
+  /// `wanted`, had been written by then, so that it was the synchroniser alone that kept it back.
+  bool token_behind_synchroniser(Cycles date, Cycles wanted) const {
+    return config_.kind == FifoKind::kAsynchronous &&
+           date - Cycles(config_.synchroniser_stages.to_reader) <= wanted;
+  }
+  /// Likewise whether the slot of the next token, of the writer's clock, had been read.
+  bool slot_behind_synchroniser(Cycles date, Cycles wanted) const {
+    return config_.kind == FifoKind::kAsynchronous && statistics_.written >= config_.depth &&
+           date - Cycles(config_.synchroniser_stages.to_writer) <= wanted;
   }
   const ClockDomain& writer_clock() const { return writer_clock_; }
   const ClockDomain& reader_clock() const { return reader_clock_; }
@@ -191,7 +199,8 @@ class StreamBase : public sc_core::sc_prim_channel, public virtual sc_core::sc_i
   /// First cycle in which that token can be written. Needs write_date_known(ahead).
   Cycles writable_at(std::uint64_t ahead = 0) const {
     const std::uint64_t index = statistics_.written + ahead;
-    return index < config_.depth ? Cycles(0) : backward(read_dates_[(index - config_.depth) & mask_]);
+    return index < config_.depth ? Cycles(config_.not_ready_cycles)
+                                 : backward(read_dates_[(index - config_.depth) & mask_]);
   }
   /// The next token is written in `cycle`, its writer having been held back by `blocked` cycles.
   void mark_written(Cycles cycle, Cycles blocked) {

@@ -14,6 +14,7 @@ void MachineConfig::validate() const {
   memory.validate();
   dma.validate();
   link.validate();
+  streams.validate();
   tiles.validate();
   rectification.validate();
   census.validate();

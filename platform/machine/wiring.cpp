@@ -87,8 +87,7 @@ void Wiring::build() {
     FifoConfig fifo;
     fifo.depth = streams_config_.resolve(wire.name, static_cast<std::uint32_t>(depths[i]));
     fifo.width = wire.width;
-    fifo.kind = streams_config_.kind(wire.name);
-    fifo.synchroniser_stages = streams_config_.synchroniser_stages;
+    streams_config_.set_kind(wire.name, fifo);
     streams_.push_back(wire.make(wire.name.c_str(), fifo));
   }
 }

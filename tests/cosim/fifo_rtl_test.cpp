@@ -42,7 +42,10 @@ std::vector<Graph> all_depths(const std::vector<GraphEdge>& kinds, const std::ve
   return graphs;
 }
 
-GraphEdge of_kind(FifoKind kind, std::uint32_t stages = 2) { return GraphEdge{}.of_kind(kind, stages); }
+GraphEdge of_kind(FifoKind kind) { return GraphEdge{}.of_kind(kind); }
+GraphEdge asynchronous(std::uint32_t to_reader, std::uint32_t to_writer) {
+  return GraphEdge{}.of_kind(FifoKind::kAsynchronous, SynchroniserStages{to_reader, to_writer});
+}
 GraphEdge of_offsets(std::uint32_t write_to_read, std::uint32_t read_to_write) {
   return GraphEdge{}.offsets(write_to_read, read_to_write);
 }
@@ -53,7 +56,9 @@ TEST(FifoRtl, EveryDateWithOneClock) {
                                      of_kind(FifoKind::kBlockRam),
                                      of_offsets(1, 0),
                                      of_offsets(0, 0),
-                                     of_offsets(3, 2)};
+                                     of_offsets(3, 2),
+                                     of_kind(FifoKind::kRegistered).ready_after(1),
+                                     of_offsets(6, 1).ready_after(9)};
   for (std::uint32_t seed = 1; seed <= kSeeds; ++seed) {
     const std::uint64_t threads = seed % 3 == 0 ? 0 : seed % 3 == 1 ? ~0ull : 0x5a3c'9966'f00f'55aaull;
     EXPECT_EQ(against_rtl<FifoBank>(all_depths(kinds, {1}, seed), one_clock<FifoBank>, threads), "")
@@ -62,8 +67,8 @@ TEST(FifoRtl, EveryDateWithOneClock) {
 }
 
 TEST(FifoRtl, EveryDateBetweenTwoClocks) {
-  const std::vector<GraphEdge> kinds{of_kind(FifoKind::kAsynchronous, 1), of_kind(FifoKind::kAsynchronous, 2),
-                                     of_kind(FifoKind::kAsynchronous, 3)};
+  const std::vector<GraphEdge> kinds{asynchronous(1, 1), asynchronous(2, 2), asynchronous(3, 3),
+                                     asynchronous(6, 2), asynchronous(1, 4).ready_after(5)};
   std::uint32_t seed = 0;
   // Faster, slower, of a ratio that never repeats soon, and equal: then the edges coincide, and the
   // synchronisers are still there.

@@ -124,14 +124,72 @@ TEST(Configuration, EveryStreamHasAKindOfFifo) {
 TEST(Configuration, RefusesAKindOfFifoThatThereIsNot) {
   EXPECT_EQ(error({"streams.default_kind=sram"}),
             "--set streams.default_kind=sram: streams.default_kind = \"sram\": must be one of registered, "
-            "first_word_fall_through, block_ram, asynchronous");
+            "first_word_fall_through, block_ram, asynchronous, free");
   EXPECT_EQ(
-      error({"streams.unique.kind=free"}),
-      "--set streams.unique.kind=free: streams.unique.kind = \"free\": must be one of default, registered, "
-      "first_word_fall_through, block_ram, asynchronous");
+      error({"streams.unique.kind=fwft"}),
+      "--set streams.unique.kind=fwft: streams.unique.kind = \"fwft\": must be one of default, registered, "
+      "first_word_fall_through, block_ram, asynchronous, free");
   EXPECT_EQ(
       error({"streams.synchroniser_stages=0"}),
       "--set streams.synchroniser_stages=0: streams.synchroniser_stages = 0: must be an integer from 1 to 8");
+}
+
+FifoConfig fifo_of(const std::string& stream, const std::vector<std::string>& assignments) {
+  FifoConfig fifo;
+  load(assignments).machine.streams.set_kind(stream, fifo);
+  return fifo;
+}
+
+TEST(Configuration, DelaysOfAFreeFifo) {
+  FifoConfig fifo = fifo_of("unique", {"streams.unique.kind=free", "streams.unique.write_to_read=5"});
+  EXPECT_EQ(fifo.kind, FifoKind::kFree);
+  EXPECT_EQ(fifo.write_to_read, 5U);
+  EXPECT_EQ(fifo.read_to_write, 1U);
+  fifo = fifo_of("unique", {"streams.default_kind=free", "streams.unique.write_to_read=0",
+                            "streams.unique.read_to_write=0", "streams.unique.not_ready_cycles=7"});
+  EXPECT_EQ(fifo.write_to_read, 0U);
+  EXPECT_EQ(fifo.read_to_write, 0U);
+  EXPECT_EQ(fifo.not_ready_cycles, 7U);
+  fifo = fifo_of("winners", {"streams.default_kind=free", "streams.unique.write_to_read=0"});
+  EXPECT_EQ(fifo.write_to_read, 1U);
+  EXPECT_EQ(fifo.read_to_write, 1U);
+  EXPECT_EQ(fifo.not_ready_cycles, 0U);
+}
+
+TEST(Configuration, SynchroniserStagesOfEachWay) {
+  FifoConfig fifo = fifo_of("unique", {"streams.unique.kind=asynchronous", "streams.unique.write_to_read=5"});
+  EXPECT_EQ(fifo.kind, FifoKind::kAsynchronous);
+  EXPECT_EQ(fifo.synchroniser_stages.to_reader, 4U);
+  EXPECT_EQ(fifo.synchroniser_stages.to_writer, 2U);
+  fifo = fifo_of("unique", {"streams.default_kind=asynchronous", "streams.synchroniser_stages=3",
+                            "streams.unique.read_to_write=2"});
+  EXPECT_EQ(fifo.synchroniser_stages.to_reader, 3U);
+  EXPECT_EQ(fifo.synchroniser_stages.to_writer, 1U);
+}
+
+TEST(Configuration, RefusesDelaysThatAKindOfFifoDoesNotTake) {
+  EXPECT_EQ(error({"streams.unique.write_to_read=1"}),
+            "streams.unique.write_to_read = 1: a FIFO of kind registered has delays of its own; "
+            "streams.unique.kind = free takes them (streams.unique.write_to_read: --set "
+            "streams.unique.write_to_read=1)");
+  EXPECT_EQ(
+      error({"streams.default_kind=free", "streams.unique.kind=block_ram", "streams.unique.read_to_write=0"}),
+      "streams.unique.read_to_write = 0: a FIFO of kind block_ram has delays of its own; "
+      "streams.unique.kind = free takes them (streams.unique.read_to_write: --set "
+      "streams.unique.read_to_write=0, streams.unique.kind: --set streams.unique.kind=block_ram)");
+  EXPECT_EQ(
+      error({"streams.unique.kind=asynchronous", "streams.unique.read_to_write=1"}),
+      "streams.unique.read_to_write = 1: an asynchronous FIFO has at least 2, the edge that captures the "
+      "pointer and a synchroniser register; streams.unique.kind = free takes less "
+      "(streams.unique.read_to_write: --set streams.unique.read_to_write=1, streams.unique.kind: --set "
+      "streams.unique.kind=asynchronous)");
+  EXPECT_EQ(error({"streams.unique.write_to_read=65"}),
+            "--set streams.unique.write_to_read=65: streams.unique.write_to_read = 65: must be an integer "
+            "from -1 to 64");
+  EXPECT_EQ(error({"streams.unique.not_ready_cycles=-1"}),
+            "--set streams.unique.not_ready_cycles=-1: streams.unique.not_ready_cycles = -1: must be an "
+            "integer from 0 "
+            "to 65536");
 }
 
 TEST(Configuration, RefusesAssignmentsByName) {

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // FIFO between two clocks. Each side hands its pointer, in Gray code, to the other one through a chain of
-// STAGES registers there: a pointer launched at an edge is captured at the other clock's first edge strictly
-// after it, is at the end of the chain STAGES edges from there on, and is compared without a further register.
+// registers there, TO_READER and TO_WRITER long: a pointer launched at an edge is captured at the other clock's
+// first edge strictly after it, is at the end of the chain as many edges from there on, and is compared without a
+// further register.
 //
 // Pointers count modulo 2 * DEPTH. For a depth that is no power of two they go round the middle piece of a
 // longer Gray code, which is a mirror image of itself, so that the wrap changes one bit only, too.
 module fifo_asynchronous #(
-    parameter int DEPTH  = 2,
-    parameter int STAGES = 2,
-    parameter int WIDTH  = 8
+    parameter int DEPTH = 2,
+    parameter int TO_READER = 2,
+    parameter int TO_WRITER = 2,
+    parameter int WIDTH = 8
 ) (
     input  logic             in_clk,
     input  logic             in_valid,
@@ -43,15 +45,17 @@ module fifo_asynchronous #(
   Pointer head = Pointer'(FIRST);
   Pointer tail_gray = gray(Pointer'(FIRST));
   Pointer head_gray = gray(Pointer'(FIRST));
-  Pointer [STAGES-1:0] tail_seen = {STAGES{gray(Pointer'(FIRST))}};
-  Pointer [STAGES-1:0] head_seen = {STAGES{gray(Pointer'(FIRST))}};
+  localparam int TAILS = TO_READER * BITS;
+  localparam int HEADS = TO_WRITER * BITS;
+  logic [TAILS-1:0] tail_seen = {TO_READER{gray(Pointer'(FIRST))}};  // the chains, whose last register is highest
+  logic [HEADS-1:0] head_seen = {TO_WRITER{gray(Pointer'(FIRST))}};
 
   Pointer head_there;
   Pointer held;
-  assign head_there = binary(head_seen[STAGES-1]);
+  assign head_there = binary(head_seen[HEADS-1-:BITS]);
   assign held = tail >= head_there ? tail - head_there : tail - head_there + Pointer'(2 * DEPTH);
   assign in_ready = held != Pointer'(DEPTH);
-  assign out_valid = tail_seen[STAGES-1] != head_gray;
+  assign out_valid = tail_seen[TAILS-1-:BITS] != head_gray;
   assign out_data = memory[head_place];
 
   always_ff @(posedge in_clk) begin
@@ -61,8 +65,7 @@ module fifo_asynchronous #(
       tail <= next(tail);
       tail_gray <= gray(next(tail));
     end
-    for (int i = STAGES - 1; i > 0; --i) head_seen[i] <= head_seen[i-1];
-    head_seen[0] <= head_gray;
+    head_seen <= head_seen << BITS | HEADS'(head_gray);
   end
 
   always_ff @(posedge out_clk) begin
@@ -71,7 +74,6 @@ module fifo_asynchronous #(
       head <= next(head);
       head_gray <= gray(next(head));
     end
-    for (int i = STAGES - 1; i > 0; --i) tail_seen[i] <= tail_seen[i-1];
-    tail_seen[0] <= tail_gray;
+    tail_seen <= tail_seen << BITS | TAILS'(tail_gray);
   end
 endmodule

@@ -18,38 +18,38 @@ module fifo_free #(
 );
   localparam int PLACE = DEPTH > 1 ? $clog2(DEPTH) : 1;
   localparam int COUNT = $clog2(DEPTH + 1) + 1;
-  typedef logic [COUNT-1:0] Count;  // of all tokens so far, modulo more than 2 * DEPTH
   logic [WIDTH-1:0] memory[DEPTH];
   logic [PLACE-1:0] tail = 0;
   logic [PLACE-1:0] head = 0;
-  Count written = 0;
-  Count read = 0;
+  logic [COUNT-1:0] written = 0;  // tokens so far, modulo more than 2 * DEPTH
+  logic [COUNT-1:0] read = 0;
 
   if (WRITE_TO_READ == 0) begin : fall_through
-    assign out_valid = written != read || in_valid;
+    // What is not taken cannot be handed on; an empty one takes everything where a read is seen in its cycle.
+    assign out_valid = written != read || (in_valid && (READ_TO_WRITE == 0 || in_ready));
     assign out_data  = written != read ? memory[head] : in_data;
   end else begin : delayed_write
-    Count [WRITE_TO_READ-1:0] seen;
-    assign seen[0]   = written;
-    assign out_valid = seen[WRITE_TO_READ-1] != read;
+    logic [WRITE_TO_READ*COUNT-1:0] seen;
+    assign seen[0+:COUNT] = written;
+    assign out_valid = seen[(WRITE_TO_READ-1)*COUNT+:COUNT] != read;
     assign out_data  = memory[head];
     for (genvar i = 1; i < WRITE_TO_READ; ++i) begin : delay
-      Count register = 0;
-      always_ff @(posedge clk) register <= seen[i-1];
-      assign seen[i] = register;
+      logic [COUNT-1:0] register = 0;
+      always_ff @(posedge clk) register <= seen[(i-1)*COUNT+:COUNT];
+      assign seen[i*COUNT+:COUNT] = register;
     end
   end
 
   if (READ_TO_WRITE == 0) begin : write_when_read
-    assign in_ready = written - read != Count'(DEPTH) || (out_valid && out_ready);
+    assign in_ready = written - read != COUNT'(DEPTH) || (out_valid && out_ready);
   end else begin : delayed_read
-    Count [READ_TO_WRITE-1:0] seen;
-    assign seen[0]  = read;
-    assign in_ready = written - seen[READ_TO_WRITE-1] != Count'(DEPTH);
+    logic [READ_TO_WRITE*COUNT-1:0] seen;
+    assign seen[0+:COUNT] = read;
+    assign in_ready = written - seen[(READ_TO_WRITE-1)*COUNT+:COUNT] != COUNT'(DEPTH);
     for (genvar i = 1; i < READ_TO_WRITE; ++i) begin : delay
-      Count register = 0;
-      always_ff @(posedge clk) register <= seen[i-1];
-      assign seen[i] = register;
+      logic [COUNT-1:0] register = 0;
+      always_ff @(posedge clk) register <= seen[(i-1)*COUNT+:COUNT];
+      assign seen[i*COUNT+:COUNT] = register;
     end
   end
 

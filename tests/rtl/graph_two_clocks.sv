@@ -25,13 +25,13 @@ module graph_two_clocks #(
   fifo #(.KIND(0), .DEPTH(DEPTH)) fifo_0 (
       .clk(clk_0), .in_valid(in_valid[0]), .in_ready(in_ready[0]), .in_data(in_data[0]),
       .out_valid(out_valid[0]), .out_ready(out_ready[0]), .out_data(out_data[0]));
-  fifo_asynchronous #(.DEPTH(DEPTH), .STAGES(2)) fifo_1 (
+  fifo_asynchronous #(.DEPTH(DEPTH), .TO_READER(2), .TO_WRITER(2)) fifo_1 (
       .in_clk(clk_0), .in_valid(in_valid[1]), .in_ready(in_ready[1]), .in_data(in_data[1]),
       .out_clk(clk_1), .out_valid(out_valid[1]), .out_ready(out_ready[1]), .out_data(out_data[1]));
   fifo #(.KIND(1), .DEPTH(DEPTH)) fifo_2 (
       .clk(clk_1), .in_valid(in_valid[2]), .in_ready(in_ready[2]), .in_data(in_data[2]),
       .out_valid(out_valid[2]), .out_ready(out_ready[2]), .out_data(out_data[2]));
-  fifo_asynchronous #(.DEPTH(DEPTH), .STAGES(3)) fifo_3 (
+  fifo_asynchronous #(.DEPTH(DEPTH), .TO_READER(3), .TO_WRITER(3)) fifo_3 (
       .in_clk(clk_1), .in_valid(in_valid[3]), .in_ready(in_ready[3]), .in_data(in_data[3]),
       .out_clk(clk_0), .out_valid(out_valid[3]), .out_ready(out_ready[3]), .out_data(out_data[3]));
   fifo #(.KIND(2), .DEPTH(DEPTH)) fifo_4 (

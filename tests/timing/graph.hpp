@@ -79,23 +79,29 @@ struct GraphEdge {
   std::uint32_t read_to_write = 1;
   /// How the model is told of the offsets; the reference goes by the offsets themselves.
   FifoKind kind = FifoKind::kFree;
-  std::uint32_t synchroniser_stages = 2;
+  SynchroniserStages synchroniser_stages{};
+  std::uint32_t not_ready_cycles = 0;  ///< of the writer's clock, from 0 on
 
   /// Sets the kind and, from the tests' own table of rules, the offsets.
-  GraphEdge& of_kind(FifoKind k, std::uint32_t stages = 2) {
+  GraphEdge& of_kind(FifoKind k, std::uint32_t stages = 2) { return of_kind(k, {stages, stages}); }
+  GraphEdge& of_kind(FifoKind k, const SynchroniserStages& stages) {
     kind = k;
     synchroniser_stages = stages;
     write_to_read = k == FifoKind::kFirstWordFallThrough ? 0
                     : k == FifoKind::kBlockRam           ? 2
-                    : k == FifoKind::kAsynchronous       ? stages + 1
+                    : k == FifoKind::kAsynchronous       ? stages.to_reader + 1
                                                          : 1;
-    read_to_write = k == FifoKind::kAsynchronous ? stages + 1 : 1;
+    read_to_write = k == FifoKind::kAsynchronous ? stages.to_writer + 1 : 1;
     return *this;
   }
   /// Of kind kFree, then.
   GraphEdge& offsets(std::uint32_t to_read, std::uint32_t to_write) {
     write_to_read = to_read;
     read_to_write = to_write;
+    return *this;
+  }
+  GraphEdge& ready_after(std::uint32_t cycles) {
+    not_ready_cycles = cycles;
     return *this;
   }
   GraphEdge& deep(std::uint32_t tokens) {
@@ -162,7 +168,8 @@ inline std::ostream& operator<<(std::ostream& out, const Graph& graph) {
   }
   for (const GraphEdge& e : graph.edges) {
     out << "\n  edge " << e.from << "." << e.from_port << " -> " << e.to << "." << e.to_port << " depth "
-        << e.depth << " +" << e.write_to_read << " +" << e.read_to_write << " " << name_of(e.kind);
+        << e.depth << " +" << e.write_to_read << " +" << e.read_to_write << " " << name_of(e.kind)
+        << ", not ready for " << e.not_ready_cycles;
   }
   return out;
 }

@@ -54,6 +54,7 @@ class ModelSimulation {
       config.depth = edge.depth;
       config.kind = edge.kind;
       config.synchroniser_stages = edge.synchroniser_stages;
+      config.not_ready_cycles = edge.not_ready_cycles;
       if (edge.kind == FifoKind::kFree) {
         config.write_to_read = edge.write_to_read;
         config.read_to_write = edge.read_to_write;

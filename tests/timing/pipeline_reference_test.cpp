@@ -76,8 +76,11 @@ RC_GTEST_PROP(PipelineReference, EveryDateWithAnyDepthsAndTheSameDeadlocks, ()) 
 RC_GTEST_PROP(PipelineReference, AutomaticDepthsCostNoCycle, ()) {
   PipelineCase c = random_pipeline(Depths::kAutomatic, 1, 1, 1);
   // A token a cycle needs slots for the way there and back.
-  c.config.streams.default_depth =
-      std::max(2 * (1 + c.config.streams.synchroniser_stages), c.config.streams.default_depth);
+  for (const StreamKind& stream : c.config.streams.kinds) {
+    const FifoOffsets offsets = c.config.streams.offsets(stream.name);
+    c.config.streams.default_depth =
+        std::max(offsets.write_to_read + offsets.read_to_write, c.config.streams.default_depth);
+  }
   for (auto* stalls : {&c.left, &c.right, &c.map_stalls, &c.output}) {
     std::fill(stalls->begin(), stalls->end(), 0u);
   }

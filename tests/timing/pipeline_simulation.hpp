@@ -141,6 +141,7 @@ class PipelineSimulation {
       edges[stream].depth = fifo.depth;
       edges[stream].of_kind(fifo.kind, fifo.synchroniser_stages);
       if (fifo.kind == FifoKind::kFree) edges[stream].offsets(fifo.write_to_read, fifo.read_to_write);
+      edges[stream].ready_after(fifo.not_ready_cycles);
       graph.edges.push_back(edges[stream]);
     }
     return graph;

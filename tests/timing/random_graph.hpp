@@ -114,13 +114,11 @@ class RandomGraph {
     const bool one_clock = clock(edge.from) == clock(edge.to);
     switch (number(0, 3)) {
       case 0:
-        if (!one_clock) {
-          edge.of_kind(FifoKind::kAsynchronous, static_cast<std::uint32_t>(number(1, 4)));
-        } else {
-          edge.of_kind(*rc::gen::element(FifoKind::kRegistered, FifoKind::kFirstWordFallThrough,
-                                         FifoKind::kBlockRam, FifoKind::kAsynchronous),
-                       static_cast<std::uint32_t>(number(1, 4)));
-        }
+        edge.of_kind(one_clock ? *rc::gen::element(FifoKind::kRegistered, FifoKind::kFirstWordFallThrough,
+                                                   FifoKind::kBlockRam, FifoKind::kAsynchronous)
+                               : FifoKind::kAsynchronous,
+                     SynchroniserStages{static_cast<std::uint32_t>(number(1, 4)),
+                                        static_cast<std::uint32_t>(number(1, 4))});
         break;
       case 1: {
         const int least = one_clock ? 0 : 1;
@@ -133,6 +131,7 @@ class RandomGraph {
       default:
         break;
     }
+    if (number(0, 5) == 0) edge.ready_after(static_cast<std::uint32_t>(number(1, 20)));
   }
 
   // A stage that reads 1 to 3 open outputs and writes 1 or 2, with its own rates and look-ahead.

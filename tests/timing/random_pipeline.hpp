@@ -109,13 +109,21 @@ inline PipelineCase random_pipeline(Depths depths, std::uint64_t frames, int lar
   config.streams.synchroniser_stages = count(1, 4);
   const auto kind = [] {
     return *rc::gen::element(FifoKind::kRegistered, FifoKind::kFirstWordFallThrough, FifoKind::kBlockRam,
-                             FifoKind::kAsynchronous);
+                             FifoKind::kAsynchronous, FifoKind::kFree);
   };
   if (number(0, 1) == 0) config.streams.default_kind = kind();
   if (number(0, 1) == 0) {
     for (StreamKind& stream : config.streams.kinds) {
       if (number(0, 2) == 0) stream.kind = kind();
     }
+  }
+  for (StreamKind& stream : config.streams.kinds) {
+    if (number(0, 5) == 0) stream.not_ready_cycles = count(1, 50);
+    const FifoKind of = config.streams.kind(stream.name);
+    if (of != FifoKind::kFree && of != FifoKind::kAsynchronous) continue;
+    const int least = of == FifoKind::kFree ? 0 : 2;
+    if (number(0, 1) == 0) stream.write_to_read = number(least, 6);
+    if (number(0, 1) == 0) stream.read_to_write = number(least, 6);
   }
   if (depths == Depths::kRandom) {
     for (StreamDepth& stream : config.streams.depths) {

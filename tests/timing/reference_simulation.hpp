@@ -36,7 +36,8 @@ class ReferenceSimulation {
       for (const std::uint32_t stall : node.stalls) gap = std::max<std::int64_t>(gap, stall + 2);
       longest += gap;
     }
-    for (const GraphEdge& edge : graph_.edges) longest += edge.write_to_read + edge.read_to_write;
+    for (const GraphEdge& edge : graph_.edges)
+      longest += edge.write_to_read + edge.read_to_write + edge.not_ready_cycles;
     longest *= *std::max_element(graph_.periods.begin(), graph_.periods.end());
 
     const bool combinational = std::any_of(graph_.edges.begin(), graph_.edges.end(), [](const GraphEdge& e) {
@@ -113,6 +114,7 @@ class ReferenceSimulation {
   }
   bool has_room(std::size_t e, std::int64_t time) {
     const GraphEdge& edge = graph_.edges[e];
+    if (time / period_of(edge.from) < edge.not_ready_cycles) return false;
     auto& freed = fifos_[e].freed;
     while (!freed.empty() && edges_between(freed.front(), time, period_of(edge.from)) >= edge.read_to_write) {
       freed.pop_front();

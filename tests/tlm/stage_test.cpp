@@ -227,6 +227,16 @@ TEST(Stage, WaitsForASynchroniserAreTheirOwn) {
   EXPECT_EQ(s.total().count(), 3 + 2 + 2 + 2);
 }
 
+TEST(Stage, WaitsForAFifoThatIsNotReadyAreNone) {
+  Graph out = chain(no_stalls(8), copying(0, 8), no_stalls(8), 4);
+  out.edges[1].of_kind(FifoKind::kAsynchronous).ready_after(4);
+  ModelSimulation model(out, kThreads);
+  EXPECT_EQ(model.run()[1].written, Dates({4, 5, 6, 7, 10, 11, 12, 13}));
+  const StageStatistics& s = model.stage(1).statistics();
+  EXPECT_EQ(s.synchroniser.count(), 2);
+  EXPECT_EQ(s.blocked.count(), 3);
+}
+
 TEST(Stage, WaitsForASlotBehindASynchroniserAreToo) {
   // Written in 1, 2, 3, 4, read in 4, 5, ..., so there is room in 7; the stage would have written in 5.
   Graph out = chain(no_stalls(8), copying(0, 8), no_stalls(8), 4);

@@ -59,7 +59,7 @@ FifoConfig of_kind(FifoKind kind, std::uint32_t depth, std::uint32_t synchronise
   FifoConfig config;
   config.depth = depth;
   config.kind = kind;
-  config.synchroniser_stages = synchroniser_stages;
+  config.synchroniser_stages = {synchroniser_stages, synchroniser_stages};
   return config;
 }
 
@@ -355,10 +355,25 @@ TEST(Stream, RefusesOffsetsForAKindThatHasItsOwn) {
 }
 TEST(Stream, RefusesSynchronisersWithoutOrWithTooManyRegisters) {
   EXPECT_EQ(refusal(of_kind(FifoKind::kAsynchronous, 4, 0)),
-            "stream 'pixels': 0 synchroniser stages are outside 1 to 8");
-  EXPECT_EQ(refusal(of_kind(FifoKind::kAsynchronous, 4, 9)),
-            "stream 'pixels': 9 synchroniser stages are outside 1 to 8");
-  EXPECT_EQ(refusal(of_kind(FifoKind::kAsynchronous, 4, 8)), "");
+            "stream 'pixels': 0 synchroniser stages are outside 1 to 63");
+  EXPECT_EQ(refusal(of_kind(FifoKind::kAsynchronous, 4, 64)),
+            "stream 'pixels': 64 synchroniser stages are outside 1 to 63");
+  EXPECT_EQ(refusal(of_kind(FifoKind::kAsynchronous, 4, 63)), "");
+}
+
+TEST(Stream, TakesNothingBeforeItIsReady) {
+  const ClockDomain clock("clock", Hertz(1));
+  Dataflow dataflow("dataflow");
+  FifoConfig config = fifo(2);
+  config.not_ready_cycles = 3;
+  Stream<int> stream("pixels", dataflow, clock, clock, config);
+  EXPECT_EQ(stream.writable_at(0), Cycles(3));
+  EXPECT_EQ(stream.writable_at(1), Cycles(3));
+  stream.mark_written(Cycles(5), Cycles(0));
+  EXPECT_EQ(stream.writable_at(), Cycles(3));
+  stream.mark_written(Cycles(6), Cycles(0));
+  stream.mark_read(Cycles(9), Cycles(0));
+  EXPECT_EQ(stream.writable_at(), Cycles(10));
 }
 
 // Equal frequencies do not make one clock of two.
