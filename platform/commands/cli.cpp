@@ -19,6 +19,7 @@
 #include "platform/commands/compare_runs_command.hpp"
 #include "platform/commands/config_command.hpp"
 #include "platform/commands/exit_codes.hpp"
+#include "platform/commands/fifo_command.hpp"
 #include "platform/commands/glossary_command.hpp"
 #include "platform/commands/map_command.hpp"
 #include "platform/commands/memory_command.hpp"
@@ -113,6 +114,7 @@ void add_commands(CLI::App& app, CommandContext& context) {
   add_vectors_command(app, context);
   add_compare_command(app, context);
   add_circuit_command(app, context);
+  add_fifo_command(app, context);
   refuse_empty_values(app);
 }
 

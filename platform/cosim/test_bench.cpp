@@ -8,20 +8,10 @@
 #include <string>
 #include <vector>
 
+#include "platform/cosim/template_text.hpp"
+
 namespace parallax {
 namespace {
-
-// A template's words in @...@ are replaced by what belongs to a stream.
-using Replacements = std::vector<std::pair<std::string, std::string>>;
-
-std::string filled(std::string text, const Replacements& words) {
-  for (const auto& [name, value] : words) {
-    const std::string key = "@" + name + "@";
-    for (std::size_t at = text.find(key); at != std::string::npos; at = text.find(key, at + value.size()))
-      text.replace(at, key.size(), value);
-  }
-  return text;
-}
 
 std::string range(const VectorStream& stream) {
   return fmt::format("[{}:0]", stream.shape.format.width().count() - 1);

@@ -15,6 +15,7 @@
 #include "platform/config/dram_device.hpp"
 #include "platform/config/preset.hpp"
 #include "platform/cosim/dump_file.hpp"
+#include "platform/cosim/fifo_description.hpp"
 #include "platform/cosim/vector_manifest.hpp"
 #include "platform/images/image_codecs.hpp"
 #include "platform/input/address_trace.hpp"
@@ -137,6 +138,10 @@ inline void read_manifest(const TemporaryFolder& folder, const std::string& byte
   for (const VectorStream& stream : manifest.streams) manifest.place(stream, 12345, 0);
 }
 
+inline void read_fifo_waves(const TemporaryFolder& folder, const std::string& bytes) {
+  describe_fifo({read_fifo_capture(put(folder, "f.txt", bytes), {})});
+}
+
 inline void read_dump_of(const TemporaryFolder& folder, const std::string& bytes) {
   VectorStream stream;
   stream.name = "left_codes";
@@ -167,6 +172,7 @@ inline const std::vector<FuzzedReader>& fuzzed_readers() {
       {"trace", trace_seeds, read_trace},
       {"manifest", manifest_seeds, read_manifest},
       {"dump", dump_seeds, read_dump_of},
+      {"fifo", fifo_seeds, read_fifo_waves},
       {"results", result_seeds, read_results}};
   return readers;
 }

@@ -120,6 +120,17 @@ inline std::vector<std::string> manifest_seeds() {
   return {program.read("out/manifest.json")};
 }
 
+inline std::vector<std::string> fifo_seeds() {
+  return {
+      "rst,write_valid,write_ready,read_valid,read_ready\n1,0,0,0,0\n0,1,1,0,1\n0,1,0,1,0\n0,1,0,1,1\n0,1,1,"
+      "0,1\n0,0,0,1,1\n",
+      "$scope module b $end\n$var wire 1 ! write_clk $end\n$var wire 1 % read_clk $end\n$var wire 1 # wr_en "
+      "$end\n"
+      "$var wire 1 $ full $end\n$var wire 1 & rd_en $end\n$var wire 1 ' empty $end\n$upscope $end\n"
+      "$enddefinitions $end\n#0 0! 0% 1# 0$ 1& 1'\n#3 1%\n#5 1! 0%\n#6 0# 1$ 1% 0'\n#10 0! 0%\n#12 1% "
+      "1'\n#15 1!\n#16 0$\n"};
+}
+
 inline std::vector<std::string> dump_seeds() {
   return {"// 0x0\n0001 7_fff\n@2 xz0 /* end */\n", "cycle,code,cause\n1,12,-4\n2,0xfff,x\n",
           "data\n0x7fff\n1\n",

@@ -175,21 +175,23 @@ TEST(Configuration, RefusesDelaysThatAKindOfFifoDoesNotTake) {
   EXPECT_EQ(
       error({"streams.default_kind=free", "streams.unique.kind=block_ram", "streams.unique.read_to_write=0"}),
       "streams.unique.read_to_write = 0: a FIFO of kind block_ram has delays of its own; "
-      "streams.unique.kind = free takes them (streams.unique.read_to_write: --set "
-      "streams.unique.read_to_write=0, streams.unique.kind: --set streams.unique.kind=block_ram)");
+      "streams.unique.kind = free takes them (streams.unique.kind: --set "
+      "streams.unique.kind=block_ram, streams.unique.read_to_write: --set "
+      "streams.unique.read_to_write=0)");
   EXPECT_EQ(
       error({"streams.unique.kind=asynchronous", "streams.unique.read_to_write=1"}),
       "streams.unique.read_to_write = 1: an asynchronous FIFO has at least 2, the edge that captures the "
       "pointer and a synchroniser register; streams.unique.kind = free takes less "
-      "(streams.unique.read_to_write: --set streams.unique.read_to_write=1, streams.unique.kind: --set "
-      "streams.unique.kind=asynchronous)");
-  EXPECT_EQ(error({"streams.unique.write_to_read=65"}),
-            "--set streams.unique.write_to_read=65: streams.unique.write_to_read = 65: must be an integer "
-            "from -1 to 64");
-  EXPECT_EQ(error({"streams.unique.not_ready_cycles=-1"}),
-            "--set streams.unique.not_ready_cycles=-1: streams.unique.not_ready_cycles = -1: must be an "
-            "integer from 0 "
-            "to 65536");
+      "(streams.unique.kind: --set streams.unique.kind=asynchronous, streams.unique.read_to_write: --set "
+      "streams.unique.read_to_write=1)");
+  EXPECT_EQ(
+      error({"streams.unique.write_to_read=65"}),
+      "--set streams.unique.write_to_read=65: streams.unique.write_to_read = 65: must be an integer from "
+      "-1 to 64");
+  EXPECT_EQ(
+      error({"streams.unique.not_ready_cycles=-1"}),
+      "--set streams.unique.not_ready_cycles=-1: streams.unique.not_ready_cycles = -1: must be an integer "
+      "from 0 to 65536");
 }
 
 TEST(Configuration, RefusesAssignmentsByName) {

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "platform/cosim/vcd_waves.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <limits>
+#include <unordered_map>
+
+namespace parallax {
+namespace {
+
+constexpr const char* kBlanks = " \t\r\n";
+
+bool is_named(const std::string& full, const std::string& name) {
+  if (full == name) return true;
+  return full.size() > name.size() + 1 && full[full.size() - name.size() - 1] == '.' &&
+         full.compare(full.size() - name.size(), name.size(), name) == 0;
+}
+
+}  // namespace
+
+VcdWaves::VcdWaves(const std::string& text, const std::string& path) : text_(text), path_(path) {
+  read_head();
+}
+
+const VcdWaves::Signal* VcdWaves::find(const std::string& name) const {
+  const auto depth = [](const Signal& signal) {
+    return std::count(signal.name.begin(), signal.name.end(), '.');
+  };
+  const Signal* best = nullptr;
+  for (const Signal& signal : signals_) {
+    if (is_named(signal.name, name) && (best == nullptr || depth(signal) < depth(*best))) best = &signal;
+  }
+  return best;
+}
+
+UserError VcdWaves::fault(const std::string& what) const {
+  const auto line = std::count(text_.begin(), text_.begin() + static_cast<std::ptrdiff_t>(at_), '\n') + 1;
+  return UserError(fmt::format("{}, line {}: {}", path_, line, what));
+}
+
+std::string_view VcdWaves::next() {
+  const std::size_t begin = text_.find_first_not_of(kBlanks, at_);
+  if (begin == std::string_view::npos) {
+    at_ = text_.size();
+    return {};
+  }
+  at_ = std::min(text_.find_first_of(kBlanks, begin), text_.size());
+  return text_.substr(begin, at_ - begin);
+}
+
+void VcdWaves::skip_to_end() {
+  for (std::string_view word = next(); word != "$end"; word = next()) {
+    if (word.empty()) throw fault("the file ends within a command, without $end");
+  }
+}
+
+void VcdWaves::read_head() {
+  std::vector<std::string> scopes;
+  for (;;) {
+    const std::string_view word = next();
+    if (word.empty()) throw fault("the file ends before $enddefinitions");
+    if (word == "$enddefinitions") return skip_to_end();
+    if (word == "$scope") {
+      next();  // its kind
+      scopes.emplace_back(next());
+      skip_to_end();
+    } else if (word == "$upscope") {
+      if (!scopes.empty()) scopes.pop_back();
+      skip_to_end();
+    } else if (word == "$var") {
+      read_variable(scopes);
+    } else if (word.front() == '$') {
+      skip_to_end();
+    } else {
+      throw fault(fmt::format("'{}' where a command such as $var is expected", excerpt(word)));
+    }
+  }
+}
+
+void VcdWaves::read_variable(const std::vector<std::string>& scopes) {
+  next();  // its kind
+  const std::string width(next());
+  const std::string id(next());
+  const std::string name(next());
+  const bool is_number = !width.empty() && width.size() < 8 &&
+                         std::all_of(width.begin(), width.end(), [](char c) { return c >= '0' && c <= '9'; });
+  if (!is_number || name.empty()) throw fault("a $var without width, identifier and name");
+  std::string full;
+  for (const std::string& scope : scopes) full += scope + ".";
+  // Some write the range behind the name without a blank.
+  signals_.push_back({full + name.substr(0, name.find('[')), id, std::stoul(width)});
+  skip_to_end();
+}
+
+std::int64_t VcdWaves::time_of(std::string_view word) const {
+  std::int64_t time = 0;
+  const char* const end = word.data() + word.size();
+  const auto [stop, error] = std::from_chars(word.data() + 1, end, time);
+  if (error != std::errc() || stop != end) throw fault(fmt::format("'{}' is no date", excerpt(word)));
+  return time;
+}
+
+void VcdWaves::read(const std::vector<const Signal*>& watched,
+                    const std::function<void(std::int64_t, const Changes&)>& at_date) {
+  std::unordered_map<std::string_view, std::string> changed;  // by identifier, which several may share
+  for (const Signal* signal : watched) changed[signal->id];
+  bool any = false;
+  const auto change = [&](std::string_view id, std::string_view value) {
+    const auto found = changed.find(id);
+    if (found == changed.end()) return;
+    found->second = value;
+    any = true;
+  };
+  Changes changes(watched.size());
+  std::int64_t now = std::numeric_limits<std::int64_t>::min();
+  const auto commit = [&] {
+    if (!any) return;
+    for (std::size_t i = 0; i < watched.size(); ++i) {
+      const std::string& value = changed.find(watched[i]->id)->second;
+      changes[i] = value.empty() ? nullptr : &value;
+    }
+    at_date(now, changes);
+    for (auto& [id, value] : changed) value.clear();
+    any = false;
+  };
+  for (std::string_view word = next(); !word.empty(); word = next()) {
+    switch (word.front()) {
+      case '#': {
+        commit();
+        const std::int64_t time = time_of(word);
+        if (time < now) throw fault(fmt::format("date {} is before {}", time, now));
+        now = time;
+        break;
+      }
+      case '$':  // $dumpvars and the like, whose values stand between
+        if (word == "$comment") skip_to_end();
+        break;
+      case 'b':
+      case 'B': {
+        const std::string_view id = next();
+        if (id.empty()) throw fault("the file ends within a value");
+        change(id, word.substr(1));
+        break;
+      }
+      case 'r':
+      case 'R':
+      case 's':
+      case 'S':
+        next();
+        break;
+      default: {
+        const std::string_view id = word.substr(1);
+        if (id.empty()) throw fault(fmt::format("'{}' is no change of a value", excerpt(word)));
+        change(id, word.substr(0, 1));
+      }
+    }
+  }
+  commit();
+}
+
+}  // namespace parallax
