@@ -133,7 +133,7 @@ std::string unit(const fs::path& folder, const std::string& module, const std::v
   for (const DeclaredPin& pin : pins) {
     text += fmt::format("  {{\"{0}\", {1}, {2}, &TOP.{0}}}, \\\n", pin.name, pin.is_input ? 1 : 0, pin.width);
   }
-  text += "\n#include \"verilated_circuit.hpp\"\n";
+  text += "\n#include \"circuit.h\"\n#include \"verilated_circuit.hpp\"\n";
   std::vector<std::string> files;
   for (const auto& entry : fs::directory_iterator(folder)) {
     const std::string name = entry.path().filename().string();

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A circuit that Verilator has made C++ of, as parallax_get_circuit(). Included by a file that Parallax writes for each one, behind
-// the model's own code: PARALLAX_TOP is its class, PARALLAX_NAME its module, PARALLAX_PINS(TOP) its pins.
+// A circuit that Verilator has made C++ of, as parallax_get_circuit(). Included by a file that Parallax writes for each one,
+// behind circuit.h: PARALLAX_TOP is its class, PARALLAX_NAME its module, PARALLAX_PINS(TOP) its pins.
 #include <verilated.h>
-
-#include "circuit.h"
 
 namespace {
 
