@@ -57,7 +57,11 @@ void CensusConfig::validate() const {
 }
 
 Census::Census(const CensusConfig& config, int width, int height)
-    : config_(config), width_(width), height_(height), pad_(config.window_width / 2) {
+    : config_(config),
+      width_(width),
+      height_(height),
+      raster_(width, look_ahead_rows() * width + look_ahead_pixels()),
+      pad_(config.window_width / 2) {
   config_.validate();
   const int line = width_ + 2 * pad_;
   lines_.resize(area(config_.window_height, line));
@@ -82,6 +86,24 @@ const Gray* Census::line_for(int y) {
 }
 
 void Census::push(const Gray* row, const RowSink<CensusCode>& emit) {
+  if (config_.border == CensusBorder::kDelayLine) {
+    push_raster(row, emit);
+  } else {
+    push_padded(row, emit);
+  }
+}
+
+void Census::push_raster(const Gray* row, const RowSink<CensusCode>& emit) {
+  if (next_row_ == 0) raster_.clear();
+  raster_.push(row);
+  if (++next_row_ == height_) {
+    raster_.end();
+    next_row_ = 0;
+  }
+  for (; raster_.complete(); raster_.pop()) transform(0, emit);
+}
+
+void Census::push_padded(const Gray* row, const RowSink<CensusCode>& emit) {
   Gray* line = padded(next_row_);
   const bool replicate = config_.border != CensusBorder::kZero;
   std::copy_n(row, width_, line);
@@ -99,7 +121,8 @@ void Census::transform(int y, const RowSink<CensusCode>& emit) {
   const int half_width = config_.window_width / 2;
   const int half_height = config_.window_height / 2;
   const int bits = config_.code_bits();
-  const Gray* centre = padded(y);
+  const bool raster = config_.border == CensusBorder::kDelayLine;
+  const Gray* centre = raster ? raster_.row() : padded(y);
 
   std::fill(codes_.begin(), codes_.end(), CensusCode{0});
   const auto flush = [this](int byte_index) {
@@ -113,8 +136,9 @@ void Census::transform(int y, const RowSink<CensusCode>& emit) {
     const int place = i < bits / 2 ? i : i + 1;  // the centre is no neighbour
     const int dx = place % config_.window_width - half_width;
     const int dy = place / config_.window_width - half_height;
-    set_bits(config_.comparison, line_for(y + dy) + dx, centre, width_,
-             static_cast<std::uint8_t>(1U << (bit % 8)), byte_.data());
+    const Gray* neighbour = raster ? centre + dy * width_ : line_for(y + dy);
+    set_bits(config_.comparison, neighbour + dx, centre, width_, static_cast<std::uint8_t>(1U << (bit % 8)),
+             byte_.data());
     if (bit % 8 == 7 || bit == bits - 1) flush(bit / 8);
   }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "modules/pixel.hpp"
+#include "modules/raster_delay.hpp"
 #include "modules/row_sink.hpp"
 
 namespace parallax {
@@ -15,8 +16,15 @@ enum class CensusBitOrder { kMsbFirst, kLsbFirst };
 /// When a neighbour's bit is 1: neighbour <op> centre.
 enum class CensusComparison { kLess, kLessEqual, kGreater, kGreaterEqual };
 
-/// What a window that leaves the image sees: the nearest pixel, the value 0, or nothing (the code is 0).
-enum class CensusBorder { kReplicate, kZero, kMask };
+/// What a window sees outside the image (of a tile: outside the tile).
+enum class CensusBorder {
+  kReplicate,  ///< the nearest pixel
+  kZero,       ///< the value 0
+  kMask,       ///< nothing: the code is 0
+  kDelayLine,  ///< what a delay line without border handling holds at its taps: the neighbour dy rows and dx
+               ///< columns away is the pixel dy * width + dx positions on in raster order, beyond the sides
+               ///< that of the row before or behind; 0 before the frame's first pixel and behind its last one
+};
 
 /// The paper names neither the transform nor its window; the census transform is an inference from "more
 /// robust towards illumination variations" and from the width of the device's masked border.
@@ -41,7 +49,8 @@ class Census {
  public:
   Census(const CensusConfig& config, int width, int height);
 
-  /// One row of `width` intensities; emits rows of `width` codes.
+  /// One row of `width` intensities; emits rows of `width` codes. With CensusBorder::kDelayLine a row is
+  /// complete when the pixels behind the row that its window ends in are there: with the next one.
   void push(const Gray* row, const RowSink<CensusCode>& emit);
 
   int look_ahead_rows() const { return config_.window_height / 2; }
@@ -54,12 +63,15 @@ class Census {
  private:
   Gray* padded(int y);  ///< first pixel of image row y in the ring of lines
   const Gray* line_for(int y);
+  void push_padded(const Gray* row, const RowSink<CensusCode>& emit);
+  void push_raster(const Gray* row, const RowSink<CensusCode>& emit);
   void transform(int y, const RowSink<CensusCode>& emit);
 
   CensusConfig config_;
   int width_;
   int height_;
   int next_row_ = 0;
+  RasterDelay<Gray> raster_;        ///< in place of the lines (CensusBorder::kDelayLine)
   int pad_;                         ///< px left and right of each stored line
   std::vector<Gray> lines_;         ///< window_height padded lines, row y in line y mod window_height
   std::vector<Gray> zero_line_;     ///< stands for rows outside the image (CensusBorder::kZero)

@@ -56,9 +56,14 @@ void describe(Schema& schema, CensusConfig& config) {
                 "How a neighbour compares with the centre when its bit is 1.", chosen("not published"));
   schema.choice(
       "census.border", config.border,
-      {{"replicate", CensusBorder::kReplicate}, {"zero", CensusBorder::kZero}, {"mask", CensusBorder::kMask}},
-      "What the window sees outside the image: the nearest pixel, the value 0, or nothing (the whole code is "
-      "0).",
+      {{"replicate", CensusBorder::kReplicate},
+       {"zero", CensusBorder::kZero},
+       {"mask", CensusBorder::kMask},
+       {"delay_line", CensusBorder::kDelayLine}},
+      "What the window sees outside the image: the nearest pixel, the value 0, nothing (the whole code is "
+      "0), "
+      "or, as in a delay line without border handling, the pixel that lies there in raster order, and 0 "
+      "before the first and behind the last.",
       chosen("not published"));
 }
 

@@ -36,7 +36,8 @@ CensusConfig any_config() {
   config.bit_order = *rc::gen::element(CensusBitOrder::kMsbFirst, CensusBitOrder::kLsbFirst);
   config.comparison = *rc::gen::element(CensusComparison::kLess, CensusComparison::kLessEqual,
                                         CensusComparison::kGreater, CensusComparison::kGreaterEqual);
-  config.border = *rc::gen::element(CensusBorder::kReplicate, CensusBorder::kZero, CensusBorder::kMask);
+  config.border = *rc::gen::element(CensusBorder::kReplicate, CensusBorder::kZero, CensusBorder::kMask,
+                                    CensusBorder::kDelayLine);
   return config;
 }
 
@@ -55,7 +56,8 @@ RC_GTEST_PROP(census, equals_its_definition, ()) {
 TEST(census, saturated_image) {
   Grid<Gray> image(9, 7);
   for (Gray& v : image.data) v = 255;
-  for (const auto border : {CensusBorder::kReplicate, CensusBorder::kZero, CensusBorder::kMask}) {
+  for (const auto border :
+       {CensusBorder::kReplicate, CensusBorder::kZero, CensusBorder::kMask, CensusBorder::kDelayLine}) {
     CensusConfig config;
     config.border = border;
     EXPECT_EQ(run(config, image), test::naive_census(config, image));
@@ -74,6 +76,33 @@ TEST(census, row_is_emitted_as_soon_as_its_window_is_complete) {
   for (int y = 0; y < 6; ++y) {
     census.push(image.row(y), [&](const CensusCode*) { ++emitted; });
     EXPECT_EQ(emitted, y < 2 ? 0 : y < 5 ? y - 1 : 6) << "after row " << y;
+  }
+}
+
+TEST(census, taps_of_a_delay_line_lie_in_the_rows_beside) {
+  Grid<Gray> image(4, 3);
+  for (int i = 0; i < 12; ++i) image.data[i] = static_cast<Gray>(100 + i);
+  CensusConfig config;
+  config.window_width = 3;
+  config.window_height = 1;
+  config.comparison = CensusComparison::kGreater;
+  config.border = CensusBorder::kDelayLine;
+  // Each pixel is above the one before and below the one behind in raster order, and behind the last is 0.
+  Grid<CensusCode> codes(4, 3);
+  for (CensusCode& code : codes.data) code = 0b01;
+  codes.at(3, 2) = 0b00;
+  EXPECT_EQ(run(config, image), codes);
+}
+
+TEST(census, delay_line_emits_a_row_with_the_pixels_behind_its_window) {
+  const auto image = test::random_grid<Gray>(8, 6, 1, 255, 3);
+  CensusConfig config;
+  config.border = CensusBorder::kDelayLine;
+  Census census(config, 8, 6);
+  int emitted = 0;
+  for (int y = 0; y < 6; ++y) {
+    census.push(image.row(y), [&](const CensusCode*) { ++emitted; });
+    EXPECT_EQ(emitted, y < 3 ? 0 : y < 5 ? y - 2 : 6) << "after row " << y;
   }
 }
 

@@ -25,6 +25,10 @@ inline Grid<CensusCode> naive_census(const CensusConfig& config, const Grid<Gray
           leaves = leaves || outside;
           int neighbour = image.at(std::clamp(u, 0, w - 1), std::clamp(v, 0, h - 1));
           if (outside && config.border == CensusBorder::kZero) neighbour = 0;
+          if (config.border == CensusBorder::kDelayLine) {
+            const int position = v * w + u;  // in raster order, wherever that lies
+            neighbour = position < 0 || position >= w * h ? 0 : image.at(position % w, position / w);
+          }
           const int centre = image.at(x, y);
           bool bit = false;
           if (config.comparison == CensusComparison::kLess) bit = neighbour < centre;
