@@ -49,10 +49,10 @@ void set_bits(CensusComparison comparison, const Gray* neighbour, const Gray* ce
 void CensusConfig::validate() const {
   check_side("window_width", window_width);
   check_side("window_height", window_height);
-  if (code_bits() < 1 || code_bits() > kMaxCodeBits) {
+  if (neighbours() < 1 || neighbours() > kMaxCodeBits) {
     throw UserError(
         fmt::format("census.window_width x census.window_height = {} x {}: {} neighbours, must be 1..{}",
-                    window_width, window_height, code_bits(), kMaxCodeBits));
+                    window_width, window_height, neighbours(), kMaxCodeBits));
   }
 }
 
@@ -71,9 +71,9 @@ Census::Census(const CensusConfig& config, int width, int height)
 }
 
 std::int64_t Census::storage_bits(int at_once) const {
-  constexpr std::int64_t kPixelBits = 8;
+  if (!config_.enabled) return 0;
   const std::int64_t columns = config_.window_width + at_once - 1;
-  return kPixelBits * ((config_.window_height - 1) * std::int64_t{width_} + config_.window_height * columns);
+  return kGrayBits * ((config_.window_height - 1) * std::int64_t{width_} + config_.window_height * columns);
 }
 
 Gray* Census::padded(int y) {
@@ -86,7 +86,10 @@ const Gray* Census::line_for(int y) {
 }
 
 void Census::push(const Gray* row, const RowSink<CensusCode>& emit) {
-  if (config_.border == CensusBorder::kDelayLine) {
+  if (!config_.enabled) {
+    std::copy_n(row, width_, codes_.data());
+    emit(codes_.data());
+  } else if (config_.border == CensusBorder::kDelayLine) {
     push_raster(row, emit);
   } else {
     push_padded(row, emit);

@@ -29,6 +29,8 @@ enum class CensusBorder {
 /// The paper names neither the transform nor its window; the census transform is an inference from "more
 /// robust towards illumination variations" and from the width of the device's masked border.
 struct CensusConfig {
+  /// Off: intensities pass unchanged in place of codes, no look-ahead, no storage. I, as the window below.
+  bool enabled = true;
   int window_width = 5;  ///< px, odd, 1..63; 5: I, a device image has a masked border of 2 px
   int window_height =
       5;  ///< px, odd, 1..63; window_width * window_height - 1 is 1..63 (a code is at most 63 bits); I
@@ -36,15 +38,16 @@ struct CensusConfig {
   CensusComparison comparison = CensusComparison::kLess;  ///< own choice
   CensusBorder border = CensusBorder::kReplicate;         ///< own choice
 
-  int code_bits() const { return window_width * window_height - 1; }
+  int neighbours() const { return window_width * window_height - 1; }
+  int code_bits() const { return enabled ? neighbours() : kGrayBits; }  ///< of what comes out
   void validate() const;
 };
 
 /// Census transform of one image (pre-processing stage; one instance per image).
 ///
 /// The neighbours of pixel (x, y) are the pixels of the window centred on it, in raster order, without the
-/// centre. Neighbour i (0 = top left) sets bit code_bits-1-i (kMsbFirst) or bit i (kLsbFirst) when `neighbour
-/// <op> centre` holds; higher bits are 0. Border as in CensusBorder.
+/// centre. Neighbour i (0 = top left) sets bit neighbours()-1-i (kMsbFirst) or bit i (kLsbFirst) when
+/// `neighbour <op> centre` holds; higher bits are 0. Border as in CensusBorder.
 class Census {
  public:
   Census(const CensusConfig& config, int width, int height);
@@ -53,8 +56,8 @@ class Census {
   /// complete when the pixels behind the row that its window ends in are there: with the next one.
   void push(const Gray* row, const RowSink<CensusCode>& emit);
 
-  int look_ahead_rows() const { return config_.window_height / 2; }
-  int look_ahead_pixels() const { return config_.window_width / 2; }
+  int look_ahead_rows() const { return config_.enabled ? config_.window_height / 2 : 0; }
+  int look_ahead_pixels() const { return config_.enabled ? config_.window_width / 2 : 0; }
 
   /// window_height - 1 lines of intensities and the window itself.
   /// `at_once`: pixels of a row that the circuit works on in one firing, in windows side by side.

@@ -6,11 +6,12 @@
 #include <algorithm>
 #include <cstddef>
 #include <optional>
+#include <stdexcept>
 #include <vector>
 
 #include "modules/area.hpp"
 #include "modules/bit_packer.hpp"
-#include "modules/hamming_row.hpp"
+#include "modules/cost_row.hpp"
 #include "modules/path_costs.hpp"
 #include "modules/require_range.hpp"
 #include "modules/token_formats.hpp"
@@ -34,13 +35,18 @@ int path_count(unsigned paths) {
 
 std::size_t count_of(const MatchingConfig& config) { return config.range().count; }
 
-// Of a path cost, and of a sum of those of the first pass if there is a second one; whatever the penalties.
+// A path cost at most, whatever the penalties.
+int largest_path_cost(const MatchingConfig& config, int code_bits) {
+  return config.largest_cost(code_bits) + kMaxPenalty;
+}
+
+// Of a path cost, and of a sum of those of the first pass if there is a second one.
 int path_bits(const MatchingConfig& config, int code_bits) {
-  return bits_for(config.cost_weight * code_bits + kMaxPenalty);
+  return bits_for(largest_path_cost(config, code_bits));
 }
 int first_sum_bits(const MatchingConfig& config, int code_bits) {
   const int paths = path_count(config.paths & ~kSouthernPaths);
-  return paths == 0 ? 0 : bits_for(paths * (config.cost_weight * code_bits + kMaxPenalty));
+  return paths == 0 ? 0 : bits_for(paths * largest_path_cost(config, code_bits));
 }
 
 /// The northern and horizontal paths of `paths` as delay lines; `turned`: the paths opposite to the southern
@@ -107,6 +113,18 @@ void MatchingConfig::validate_tokens(int pixels) const {
   }
 }
 
+void MatchingConfig::validate_census(bool census) const {
+  if (cost == MatchingCost::kHamming && !census) {
+    throw UserError(
+        "matching.cost = \"hamming\": needs census.enabled = true; grey values have "
+        "\"absolute_difference\"");
+  }
+  if (cost == MatchingCost::kAbsoluteDifference && census) {
+    throw UserError(
+        "matching.cost = \"absolute_difference\": needs census.enabled = false, it is of grey values");
+  }
+}
+
 struct Matching::State {
   State(const MatchingConfig& matching, int columns, int rows, int bits)
       : config(matching),
@@ -114,7 +132,7 @@ struct Matching::State {
         height(rows),
         code_bits(bits),
         count(matching.range().count),
-        hamming(matching, columns, bits),
+        cost_row(matching, columns, bits),
         first_pass(make_paths(matching, columns, false)),
         second_pass(make_paths(matching, columns, true)),
         costs(area(columns, count)),
@@ -132,7 +150,7 @@ struct Matching::State {
   }
 
   void match(const CensusCode* left, const CensusCode* right, Cost* out) {
-    hamming.compute(left, right, costs.data());
+    cost_row.compute(left, right, costs.data());
     std::fill_n(out, area(width, count), Cost{0});
     for (int x = 0; x < width; ++x) {
       for (Path& path : first_pass) path.advance(x, row, costs.data() + x * count, out + x * count);
@@ -186,7 +204,7 @@ struct Matching::State {
   void sweep_back(const MatchingKeeper::Take& take) {
     for (int i = 0; i < height; ++i) {
       const std::size_t first = area(height - 1 - i, width);
-      hamming.compute(left_codes.data() + first, right_codes.data() + first, costs.data());
+      cost_row.compute(left_codes.data() + first, right_codes.data() + first, costs.data());
       for (int j = 0; j < width; ++j) {
         const int x = width - 1 - j;
         Cost* out = frame_sums.data() + first * count + x * count;
@@ -202,7 +220,7 @@ struct Matching::State {
   int code_bits;
   int count;
   int row = 0;
-  HammingRow hamming;
+  CostRow cost_row;
   std::vector<Path> first_pass;
   std::vector<Path> second_pass;
   std::optional<Path> east;  ///< runs through the row turned round
@@ -218,6 +236,9 @@ struct Matching::State {
 Matching::Matching(const MatchingConfig& config, int width, int height, int code_bits)
     : config_(config), width_(width), height_(height), code_bits_(code_bits) {
   config.validate();
+  if (config.cost == MatchingCost::kAbsoluteDifference && code_bits != kGrayBits) {
+    throw std::logic_error("grey values have 8 bits");
+  }
 }
 
 Matching::~Matching() = default;
@@ -245,7 +266,7 @@ void Matching::push(const CensusCode* left, const CensusCode* right, const RowSi
 }
 
 int summed_cost_bits(const MatchingConfig& config, int code_bits) {
-  return bits_for(path_count(config.paths) * (config.cost_weight * code_bits + kMaxPenalty));
+  return bits_for(path_count(config.paths) * largest_path_cost(config, code_bits));
 }
 
 // With parallel rows the last one of them has to come in before the first column is worked on, and its last
@@ -281,7 +302,8 @@ std::int64_t Matching::storage_bits() const {
   bits += at_once * code_bits_ * config_.range().last();
   bits += (at_once - 1) * width * (2 * code_bits_ + kDisparityBits);
   if (config_.paths & kPathE) {
-    bits += at_once * width * count * (bits_for(largest_cost()) + summed_cost_bits(config_, code_bits_));
+    bits += at_once * width * count *
+            (bits_for(config_.largest_cost(code_bits_)) + summed_cost_bits(config_, code_bits_));
   }
   return bits;
 }

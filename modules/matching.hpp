@@ -27,11 +27,17 @@ inline constexpr unsigned kFourPaths = kPathW | kPathNW | kPathN | kPathNE;
 inline constexpr unsigned kSouthernPaths = kPathSW | kPathS | kPathSE;
 inline constexpr unsigned kEightPaths = 0xFF;
 
+/// What is compared of two pixels.
+enum class MatchingCost {
+  kHamming,             ///< census codes: the bits in which they differ, each `cost_weight`
+  kAbsoluteDifference,  ///< grey values, 8 bit: their absolute difference, 0..255
+};
+
 /// Cost of comparing with a right pixel left of the image.
 enum class OutsideCost {
-  kMaximum,    ///< all bits differ
+  kMaximum,    ///< the largest there is: all bits differ, or 255
   kReplicate,  ///< as the leftmost right pixel of the row
-  kZeroCode,   ///< as a right pixel with code 0
+  kZeroCode,   ///< as a right pixel with code (or grey value) 0
 };
 
 /// Predecessor of a pixel whose predecessor along the path is outside the image. Where there is none, L = C;
@@ -66,9 +72,10 @@ struct MatchingConfig {
   int parallel_rows = 1;
   int parallelism = 32;  ///< p, comparisons per iteration, 1..256; S (paper)
   int iterations = 4;  ///< n_i per pixel, 1..256; 4 for 128 disparities, 8 for 256 (D); offset + range <= 256
-  int disparity_offset = 0;  ///< o_d, px, 0..255; offset + range <= 256; S
-  /// Weight of a differing census bit against p1 and p2, 1..4. Own choice: the device's penalties are known,
-  /// the unit they count in is not.
+  int disparity_offset = 0;                    ///< o_d, px, 0..255; offset + range <= 256; S
+  MatchingCost cost = MatchingCost::kHamming;  ///< I, as the census transform (CensusConfig)
+  /// Weight of a differing census bit against p1 and p2, 1..4; not of grey values. Own choice: the device's
+  /// penalties are known, the unit they count in is not.
   int cost_weight = 1;
   int p1 = 8;   ///< penalty for a change of one disparity, 0..255, p1 < p2; S (device default)
   int p2 = 42;  ///< penalty for a larger change, 0..255; S (device default)
@@ -85,6 +92,11 @@ struct MatchingConfig {
   PathStart path_start = PathStart::kCost;  ///< own choice
 
   DisparityRange range() const { return {disparity_offset, iterations * parallelism}; }
+  int weight() const { return cost == MatchingCost::kHamming ? cost_weight : 1; }
+  /// Of two pixels of so many bits; at most 255.
+  int largest_cost(int code_bits) const {
+    return cost == MatchingCost::kHamming ? cost_weight * code_bits : (1 << code_bits) - 1;
+  }
   /// Of a token of so many pixels.
   CostGroups groups(int pixels) const {
     return {static_cast<std::uint32_t>(pixels * iterations / parallel_rows), parallel_rows};
@@ -93,6 +105,8 @@ struct MatchingConfig {
   /// whole columns of its parallel rows or the other way round; and for parallel rows that would have to wait
   /// for the end of the row above, or for the memory.
   void validate_tokens(int pixels) const;
+  /// Throws UserError unless the cost is one of what comes in: census codes, or grey values.
+  void validate_census(bool census) const;
   void validate() const;
 };
 
@@ -114,16 +128,17 @@ struct MatchingKeeper {
 /// Bits of an output value, whatever the penalties are: they are set while the circuit runs.
 int summed_cost_bits(const MatchingConfig& config, int code_bits);
 
-/// Semi-global matching: census codes of a rectified pair to summed path costs.
+/// Semi-global matching: census codes or grey values of a rectified pair to summed path costs.
 ///
 /// With D = range().count and d = o_d + k, k = 0..D-1:
-///   C(x, y, k)   = cost_weight * number of bits in which left(x, y) and right(x - d, y) differ; OutsideCost
-///                  (weighted as well) when x - d < 0.
+///   C(x, y, k)   = cost_weight * number of bits in which left(x, y) and right(x - d, y) differ, or (without
+///                  a weight) |left(x, y) - right(x - d, y)| (MatchingCost); OutsideCost, likewise, when
+///                  x - d < 0.
 ///   L_r(p, k)    = C(p, k) + min(L_r(q, k), L_r(q, k-1) + P1, L_r(q, k+1) + P1, m + P2) - m,
 ///                  q = predecessor of p along path r, m = min_k L_r(q, k), terms with k-1 < 0 or k+1 >= D
 ///                  left out; L_r(p, k) = C(p, k) where p has no predecessor (PathStart).
 ///   output(p, k) = sum over the paths of L_r(p, k).
-/// L_r <= cost_weight * code_bits + P2 <= 507, so that the sum of eight paths fits in 12 bits.
+/// L_r <= largest C + P2 <= 510, so that the sum of eight paths fits in 12 bits.
 ///
 /// Without southern paths nothing larger than some rows is held, from the first row on. With them the
 /// hardware writes the sums of the first pass and both images' codes to memory (`store`) and reads them back
@@ -131,11 +146,11 @@ int summed_cost_bits(const MatchingConfig& config, int code_bits);
 /// bottom, with the last row.
 class Matching {
  public:
-  /// `code_bits` (1..63): meaningful bits of a code.
+  /// `code_bits` (1..63): meaningful bits of a code; 8 of a grey value.
   Matching(const MatchingConfig& config, int width, int height, int code_bits);
   ~Matching();
 
-  /// One row of `width` codes of each image; emits rows of width * range().count costs.
+  /// One row of `width` codes or grey values of each image; emits rows of width * range().count costs.
   void push(const CensusCode* left, const CensusCode* right, const RowSink<Cost>& emit,
             const MatchingKeeper& keeper = {});
 
@@ -155,7 +170,6 @@ class Matching {
   struct State;
 
   std::int64_t path_pixel_bits() const;  // of one path
-  int largest_cost() const { return config_.cost_weight * code_bits_; }
   bool one_pass() const { return (config_.paths & kSouthernPaths) == 0; }
 
   MatchingConfig config_;

@@ -9,8 +9,10 @@ namespace parallax {
 
 /// Image intensity, 8 bit.
 using Gray = std::uint8_t;
+inline constexpr int kGrayBits = 8;
 
-/// Census code: one bit per neighbour in the window (at most 63 neighbours).
+/// Census code: one bit per neighbour in the window (at most 63 neighbours). Without a census transform, the
+/// intensity.
 using CensusCode = std::uint64_t;
 
 /// Sum of the path costs of one pixel at one disparity (semi-global matching).

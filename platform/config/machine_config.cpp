@@ -20,6 +20,7 @@ void MachineConfig::validate() const {
   census.validate();
   matching.validate();
   matching.validate_tokens(timing.pixels_per_token);
+  matching.validate_census(census.enabled);
   subpixel.validate();
   uniqueness.validate();
   consistency.validate();

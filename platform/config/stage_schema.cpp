@@ -38,6 +38,11 @@ void describe(Schema& schema, RectificationConfig& config) {
 
 void describe(Schema& schema, CensusConfig& config) {
   const Provenance window = inferred("a device image has a masked border of 2 px: a window of 5 x 5");
+  schema.boolean("census.enabled", config.enabled,
+                 "Whether pixels are matched by their census codes; otherwise by their grey values, which "
+                 "pass the stage with its latency and no look-ahead (matching.cost).",
+                 inferred("the paper, section Image Pre-Processing, says more robust towards illumination "
+                          "variations"));
   schema.integer("census.window_width", config.window_width, {1, 63}, "px",
                  "Width of the census window, odd. The window has at most 63 neighbours.", window);
   schema.integer("census.window_height", config.window_height, {1, 63}, "px",
@@ -95,9 +100,16 @@ void describe(Schema& schema, MatchingConfig& config) {
   schema.integer("matching.disparity_offset", config.disparity_offset, {0, 255}, "px",
                  "Smallest disparity (o_d); offset and range together are at most 256.",
                  stated(kDeviceSoftware));
+  schema.choice(
+      "matching.cost", config.cost,
+      {{"hamming", MatchingCost::kHamming}, {"absolute_difference", MatchingCost::kAbsoluteDifference}},
+      "Cost of two pixels: the number of bits in which their census codes differ, or, with "
+      "census.enabled = false, the absolute difference of their grey values.",
+      inferred("as the census transform"));
   schema.integer(
       "matching.cost_weight", config.cost_weight, {1, 4}, "units",
-      "Cost of one differing census bit, in the unit of the penalties matching.p1 and matching.p2.",
+      "Cost of one differing census bit, in the unit of the penalties matching.p1 and matching.p2; "
+      "differences of grey values have no weight.",
       chosen("the penalties of the device are known, their unit is not"));
   schema.integer("matching.p1", config.p1, {0, 255}, "units",
                  "Penalty for a disparity change of one along a path; below matching.p2.",
@@ -129,9 +141,8 @@ void describe(Schema& schema, MatchingConfig& config) {
                 {{"maximum", OutsideCost::kMaximum},
                  {"replicate", OutsideCost::kReplicate},
                  {"zero_code", OutsideCost::kZeroCode}},
-                "Cost of a right pixel left of the image: all bits differ, as the first pixel of the row, or "
-                "as a pixel "
-                "with code 0.",
+                "Cost of a right pixel left of the image: the largest there is (all bits differ, or 255), as "
+                "the first pixel of the row, or as a pixel with code (or grey value) 0.",
                 chosen("not published"));
   schema.choice(
       "matching.path_start", config.path_start,

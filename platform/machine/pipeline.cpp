@@ -171,7 +171,8 @@ void Pipeline::place_matching() {
   const PipelineTiming& time = config_.timing;
   const DisparityRange range = config_.matching.range();
   const CostGroups groups = config_.matching.groups(context_.pixels_per_token);
-  wiring_.place<CensusStage>("census", {tiles_}, config_.census, time.census, context_);
+  wiring_.place<CensusStage>("census", {tiles_, config_.census.enabled}, config_.census, time.census,
+                             context_);
   auto* matching = wiring_.place<MatchingStage>("matching", {tiles_, true, groups.of_token}, config_.matching,
                                                 config_.census.code_bits(), time.matching, context_);
   auto* subpixel = wiring_.place<SubpixelStage>("subpixel", {tiles_, true, groups.of_token}, config_.subpixel,
@@ -263,7 +264,8 @@ void Pipeline::connect_inputs(const EncodedMap& map, const TilePlan& tiles) {
 }
 
 void Pipeline::connect_matching() {
-  const TokenShape code = raster(census_code_format(config_.census.code_bits()));
+  const TokenShape code =
+      raster(config_.census.enabled ? census_code_format(config_.census.code_bits()) : gray_format());
   const TokenShape disparity = raster(disparity_format());
   TokenShape costs(cost_group_format(config_.matching.parallelism,
                                      summed_cost_bits(config_.matching, config_.census.code_bits()))

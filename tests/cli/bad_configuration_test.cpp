@@ -71,6 +71,17 @@ TEST_F(BadConfiguration, ParallelRowsAndTokens) {
       "3 pads them");
 }
 
+TEST_F(BadConfiguration, CostsOfWhatDoesNotComeIn) {
+  const auto starts = [&](const std::string& keys, const std::string& text) {
+    EXPECT_EQ(error(keys).rfind(text + " (", 0), 0U) << error(keys);
+  };
+  starts("--set census.enabled=false",
+         "matching.cost = \"hamming\": needs census.enabled = true; grey values have "
+         "\"absolute_difference\"");
+  starts("--set matching.cost=absolute_difference",
+         "matching.cost = \"absolute_difference\": needs census.enabled = false, it is of grey values");
+}
+
 TEST_F(BadConfiguration, KeysOfTheOtherMemory) {
   EXPECT_EQ(
       error("--set memory.model=bus --set dram.cl=9"),

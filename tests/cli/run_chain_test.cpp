@@ -143,6 +143,7 @@ std::vector<Case> cases() {
       {"two_paths", {96, 64}, with({"matching.paths=w,n"})},
       {"census_7x7", {96, 64}, with({"census.window_width=7", "census.window_height=7"})},
       {"delay_line_census", {96, 64}, with({"census.border=delay_line", "subpixel.mask_border=false"})},
+      {"grey_values", {96, 64}, with({"census.enabled=false", "matching.cost=absolute_difference"})},
       {"no_border_mask", {96, 64}, with({"subpixel.mask_border=false"})},
       {"penalties", {96, 64}, with({"matching.p1=3", "matching.p2=120"})},
       {"no_filters", {96, 64}, with(kNoFilters)},

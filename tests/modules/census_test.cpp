@@ -36,6 +36,7 @@ CensusConfig any_config() {
   config.bit_order = *rc::gen::element(CensusBitOrder::kMsbFirst, CensusBitOrder::kLsbFirst);
   config.comparison = *rc::gen::element(CensusComparison::kLess, CensusComparison::kLessEqual,
                                         CensusComparison::kGreater, CensusComparison::kGreaterEqual);
+  config.enabled = *rc::gen::inRange(0, 8) != 0;
   config.border = *rc::gen::element(CensusBorder::kReplicate, CensusBorder::kZero, CensusBorder::kMask,
                                     CensusBorder::kDelayLine);
   return config;
@@ -115,6 +116,19 @@ TEST(census, declares_what_its_circuit_needs) {
   EXPECT_EQ(census.look_ahead_pixels(), 4);
   EXPECT_EQ(census.storage_bits(), 8 * (6 * 640 + 7 * 9));
   EXPECT_EQ(config.code_bits(), 62);
+}
+
+TEST(census, off_it_lets_intensities_pass_at_once) {
+  CensusConfig config;
+  config.enabled = false;
+  EXPECT_EQ(config.code_bits(), 8);
+  Census census(config, 640, 480);
+  EXPECT_EQ(census.look_ahead_rows(), 0);
+  EXPECT_EQ(census.look_ahead_pixels(), 0);
+  EXPECT_EQ(census.storage_bits(), 0);
+  const auto image = test::random_grid<Gray>(8, 6, 1, 255, 3);
+  const Grid<CensusCode> out = run(config, image);
+  for (int i = 0; i < 48; ++i) EXPECT_EQ(out.data[i], image.data[i]);
 }
 
 TEST(census, bad_configuration) {

@@ -36,6 +36,7 @@ MatchingConfig any_config() {
   config.parallelism = *rc::gen::element(1, 2, 7, 16, 32);
   config.iterations = *rc::gen::inRange(1, 4);
   config.disparity_offset = *rc::gen::element(0, 1, 5, 160);
+  config.cost = *rc::gen::element(MatchingCost::kHamming, MatchingCost::kAbsoluteDifference);
   config.cost_weight = *rc::gen::inRange(1, 5);
   config.p1 = *rc::gen::element(0, 1, 8, 254);
   config.p2 = *rc::gen::inRange(config.p1 + 1, 256);
@@ -49,7 +50,8 @@ MatchingConfig any_config() {
 
 RC_GTEST_PROP(matching, equals_its_definition, ()) {
   const MatchingConfig config = any_config();
-  const int code_bits = *rc::gen::element(1, 8, 9, 24, 48, 63);
+  const bool grey = config.cost == MatchingCost::kAbsoluteDifference;
+  const int code_bits = grey ? 8 : *rc::gen::element(1, 8, 9, 24, 48, 63);
   const int width = *rc::gen::inRange(1, 40);
   const int height = *rc::gen::inRange(1, 8);
   const auto seed = *rc::gen::arbitrary<std::uint32_t>();
@@ -78,6 +80,19 @@ TEST(matching, largest_costs_do_not_overflow) {
   config.p2 = 255;
   config.paths = kEightPaths;
   EXPECT_EQ(run(config, 63, left, right), test::naive_matching(config, 63, left, right));
+}
+
+TEST(matching, largest_differences_of_grey_values_do_not_overflow) {
+  Grid<CensusCode> left(40, 6);
+  for (CensusCode& grey : left.data) grey = 255;
+  auto right = random_codes(40, 6, 8, 11);
+  for (int x = 0; x < 40; ++x) right.at(x, 2) = 0;
+  MatchingConfig config;
+  config.cost = MatchingCost::kAbsoluteDifference;
+  config.p1 = 254;
+  config.p2 = 255;
+  config.paths = kEightPaths;
+  EXPECT_EQ(run(config, 8, left, right), test::naive_matching(config, 8, left, right));
 }
 
 TEST(matching, full_range_of_256) {
@@ -138,6 +153,13 @@ TEST(matching, declares_what_its_circuit_needs) {
     EXPECT_EQ(matching.storage_bits(), 9 * 129 * (3 * 640 + 1) + 63 * 127);  // 4 * 63 + 255 needs 9 bits
     EXPECT_EQ(summed_cost_bits(config, 63), 11);                             // 4 * 507
   }
+  config.cost = MatchingCost::kAbsoluteDifference;
+  {
+    const Matching matching(config, 640, 480, 8);
+    EXPECT_EQ(matching.storage_bits(), 9 * 129 * (3 * 640 + 1) + 8 * 127);  // 255 + 255, without the weight
+    EXPECT_EQ(summed_cost_bits(config, 8), 11);                             // 4 * 510
+  }
+  config.cost = MatchingCost::kHamming;
   config.cost_weight = 1;
   config.paths = kEightPaths;
   {
@@ -180,6 +202,24 @@ TEST(matching, bad_configuration) {
             "matching.paths = 0x0: must name one to eight of w, nw, n, ne, e, sw, s, se");
   EXPECT_EQ(complain([](auto& c) { c.paths = 0x100; }),
             "matching.paths = 0x100: must name one to eight of w, nw, n, ne, e, sw, s, se");
+}
+
+TEST(matching, the_cost_is_one_of_what_comes_in) {
+  const auto complain = [](MatchingCost cost, bool census) {
+    MatchingConfig config;
+    config.cost = cost;
+    return test::complaint_of([&] { config.validate_census(census); });
+  };
+  EXPECT_EQ(complain(MatchingCost::kHamming, true), "");
+  EXPECT_EQ(complain(MatchingCost::kAbsoluteDifference, false), "");
+  EXPECT_EQ(complain(MatchingCost::kHamming, false),
+            "matching.cost = \"hamming\": needs census.enabled = true; grey values have "
+            "\"absolute_difference\"");
+  EXPECT_EQ(complain(MatchingCost::kAbsoluteDifference, true),
+            "matching.cost = \"absolute_difference\": needs census.enabled = false, it is of grey values");
+  MatchingConfig config;
+  config.cost = MatchingCost::kAbsoluteDifference;
+  EXPECT_THROW(Matching(config, 8, 8, 24), std::logic_error);
 }
 
 }  // namespace matching_test

@@ -13,6 +13,10 @@ inline Grid<CensusCode> naive_census(const CensusConfig& config, const Grid<Gray
   const int w = image.width;
   const int h = image.height;
   Grid<CensusCode> codes(w, h);
+  if (!config.enabled) {
+    for (int i = 0; i < w * h; ++i) codes.data[i] = image.data[i];
+    return codes;
+  }
   for (int y = 0; y < h; ++y) {
     for (int x = 0; x < w; ++x) {
       CensusCode code = 0;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdlib>
 
 #include "modules/matching.hpp"
 #include "tests/modules/images.hpp"
@@ -15,6 +16,11 @@ inline int naive_distance(CensusCode a, CensusCode b) {
   return bits;
 }
 
+inline int naive_cost(const MatchingConfig& config, CensusCode a, CensusCode b) {
+  if (config.cost == MatchingCost::kHamming) return config.cost_weight * naive_distance(a, b);
+  return std::abs(static_cast<int>(a) - static_cast<int>(b));
+}
+
 inline Grid<int> naive_costs(const MatchingConfig& config, int code_bits, const Grid<CensusCode>& left,
                              const Grid<CensusCode>& right) {
   Grid<int> costs(left.width, left.height, config.range().count);
@@ -24,15 +30,14 @@ inline Grid<int> naive_costs(const MatchingConfig& config, int code_bits, const 
         const int u = x - (config.disparity_offset + k);
         int& cost = costs.at(x, y, k);
         if (u >= 0) {
-          cost = naive_distance(left.at(x, y), right.at(u, y));
+          cost = naive_cost(config, left.at(x, y), right.at(u, y));
         } else if (config.outside_cost == OutsideCost::kMaximum) {
-          cost = code_bits;
+          cost = config.cost == MatchingCost::kHamming ? config.cost_weight * code_bits : 255;
         } else if (config.outside_cost == OutsideCost::kReplicate) {
-          cost = naive_distance(left.at(x, y), right.at(0, y));
+          cost = naive_cost(config, left.at(x, y), right.at(0, y));
         } else {
-          cost = naive_distance(left.at(x, y), 0);
+          cost = naive_cost(config, left.at(x, y), 0);
         }
-        cost *= config.cost_weight;
       }
     }
   }

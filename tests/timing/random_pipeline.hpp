@@ -79,6 +79,8 @@ inline PipelineCase random_pipeline(Depths depths, std::uint64_t frames, int lar
   config.rectification.range.window = 2 * number(0, 4) + 1;
   config.census.window_width = 2 * number(1, 3) + 1;
   config.census.window_height = 2 * number(0, 3) + 1;
+  config.census.enabled = number(0, 7) != 0;
+  if (!config.census.enabled) config.matching.cost = MatchingCost::kAbsoluteDifference;
   config.matching.parallelism = number(1, 8);
   config.matching.iterations = number(1, 3);
   if (number(0, 3) == 0) config.matching.recurrence_latency = number(2, 9);

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "modules/hamming_row.hpp"
-#include "modules/area.hpp"
+#include "modules/cost_row.hpp"
 
 #include <algorithm>
 #include <cstddef>
+
+#include "modules/area.hpp"
 
 namespace parallax {
 namespace {
@@ -24,20 +25,28 @@ void count_differences(std::uint8_t code, const std::uint8_t* __restrict others,
   }
 }
 
+void absolute_differences(std::uint8_t grey, const std::uint8_t* __restrict others, int n,
+                          std::uint8_t* __restrict out) {
+  for (int i = 0; i < n; ++i) {
+    out[i] = static_cast<std::uint8_t>(std::max(grey, others[i]) - std::min(grey, others[i]));
+  }
+}
+
 }  // namespace
 
-HammingRow::HammingRow(const MatchingConfig& config, int width, int code_bits)
+CostRow::CostRow(const MatchingConfig& config, int width, int code_bits)
     : range_(config.range()),
+      cost_(config.cost),
       outside_(config.outside_cost),
       width_(width),
-      code_bits_(code_bits),
-      weight_(static_cast<std::uint8_t>(config.cost_weight)),
+      largest_(static_cast<std::uint8_t>(config.largest_cost(code_bits))),
+      weight_(static_cast<std::uint8_t>(config.weight())),
       planes_((code_bits + 7) / 8),
       plane_size_(width + range_.last()) {
   right_.resize(area(planes_, plane_size_));
 }
 
-void HammingRow::compute(const CensusCode* left, const CensusCode* right, std::uint8_t* costs) {
+void CostRow::compute(const CensusCode* left, const CensusCode* right, std::uint8_t* costs) {
   const CensusCode outside = outside_ == OutsideCost::kReplicate ? right[0] : CensusCode{0};
   for (int plane = 0; plane < planes_; ++plane) {
     std::uint8_t* out = right_.data() + plane * plane_size_;
@@ -47,16 +56,20 @@ void HammingRow::compute(const CensusCode* left, const CensusCode* right, std::u
   const int count = range_.count;
   for (int x = 0; x < width_; ++x, costs += count) {
     const std::uint8_t* first = right_.data() + (width_ - 1 - x + range_.offset);
-    count_differences<false>(byte_of(left[x], 0), first, count, costs);
-    for (int plane = 1; plane < planes_; ++plane) {
-      count_differences<true>(byte_of(left[x], plane), first + plane * plane_size_, count, costs);
-    }
-    if (outside_ == OutsideCost::kMaximum) {
-      const int inside = std::clamp(x - range_.offset + 1, 0, count);
-      std::fill(costs + inside, costs + count, static_cast<std::uint8_t>(code_bits_));
+    if (cost_ == MatchingCost::kAbsoluteDifference) {
+      absolute_differences(byte_of(left[x], 0), first, count, costs);
+    } else {
+      count_differences<false>(byte_of(left[x], 0), first, count, costs);
+      for (int plane = 1; plane < planes_; ++plane) {
+        count_differences<true>(byte_of(left[x], plane), first + plane * plane_size_, count, costs);
+      }
     }
     if (weight_ != 1) {
       for (int k = 0; k < count; ++k) costs[k] = costs[k] * weight_;
+    }
+    if (outside_ == OutsideCost::kMaximum) {
+      const int inside = std::clamp(x - range_.offset + 1, 0, count);
+      std::fill(costs + inside, costs + count, largest_);
     }
   }
 }

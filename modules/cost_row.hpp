@@ -9,20 +9,21 @@
 
 namespace parallax {
 
-/// Matching costs C of one row (see Matching): Hamming distances of the left codes to the right codes of each
-/// disparity, times the weight, one byte a cost.
-class HammingRow {
+/// Matching costs C of one row (see Matching): each left pixel against the right pixels of all disparities,
+/// one byte a cost.
+class CostRow {
  public:
-  HammingRow(const MatchingConfig& config, int width, int code_bits);
+  CostRow(const MatchingConfig& config, int width, int code_bits);
 
   /// `costs` holds width * range.count bytes.
   void compute(const CensusCode* left, const CensusCode* right, std::uint8_t* costs);
 
  private:
   DisparityRange range_;
+  MatchingCost cost_;
   OutsideCost outside_;
   int width_;
-  int code_bits_;
+  std::uint8_t largest_;
   std::uint8_t weight_;
   int planes_;                       ///< bytes of a code
   int plane_size_;                   ///< width, then the pixels left of the image
