@@ -39,19 +39,23 @@ CostRow::CostRow(const MatchingConfig& config, int width, int code_bits)
       cost_(config.cost),
       outside_(config.outside_cost),
       width_(width),
-      largest_(static_cast<std::uint8_t>(config.largest_cost(code_bits))),
+      outside_value_(static_cast<std::uint8_t>(
+          outside_ == OutsideCost::kValue ? config.outside_value : config.largest_cost(code_bits))),
       weight_(static_cast<std::uint8_t>(config.weight())),
       planes_((code_bits + 7) / 8),
       plane_size_(width + range_.last()) {
   right_.resize(area(planes_, plane_size_));
 }
 
-void CostRow::compute(const CensusCode* left, const CensusCode* right, std::uint8_t* costs) {
+void CostRow::compute(const CensusCode* left, const CensusCode* right, const CensusCode* before,
+                      std::uint8_t* costs) {
   const CensusCode outside = outside_ == OutsideCost::kReplicate ? right[0] : CensusCode{0};
   for (int plane = 0; plane < planes_; ++plane) {
     std::uint8_t* out = right_.data() + plane * plane_size_;
     for (int x = 0; x < width_; ++x) out[width_ - 1 - x] = byte_of(right[x], plane);
     std::fill(out + width_, out + plane_size_, byte_of(outside, plane));
+    const std::size_t known = reach();
+    for (std::size_t i = 0; i < known; ++i) out[width_ + i] = byte_of(before[known - 1 - i], plane);
   }
   const int count = range_.count;
   for (int x = 0; x < width_; ++x, costs += count) {
@@ -67,9 +71,9 @@ void CostRow::compute(const CensusCode* left, const CensusCode* right, std::uint
     if (weight_ != 1) {
       for (int k = 0; k < count; ++k) costs[k] = costs[k] * weight_;
     }
-    if (outside_ == OutsideCost::kMaximum) {
+    if (outside_ == OutsideCost::kMaximum || outside_ == OutsideCost::kValue) {
       const int inside = std::clamp(x - range_.offset + 1, 0, count);
-      std::fill(costs + inside, costs + count, largest_);
+      std::fill(costs + inside, costs + count, outside_value_);
     }
   }
 }

@@ -22,6 +22,7 @@ namespace {
 
 constexpr int kMaxDisparities = 256;
 constexpr int kMaxPenalty = 255;
+constexpr int kMaxCost = 255;      // of two pixels
 constexpr int kCodePiece = 32;     // bits of a code that are packed at once
 constexpr int kMaxCostWeight = 4;  // a weighted cost of 63 bits fits in a byte
 constexpr int kMostParallelRows = 64;
@@ -68,6 +69,11 @@ std::vector<Path> make_paths(const MatchingConfig& config, int width, bool turne
 
 }  // namespace
 
+int MatchingConfig::largest_cost(int code_bits) const {
+  const int inside = cost == MatchingCost::kHamming ? cost_weight * code_bits : (1 << code_bits) - 1;
+  return outside_cost == OutsideCost::kValue ? std::max(inside, outside_value) : inside;
+}
+
 void MatchingConfig::validate() const {
   require_range("matching.parallelism", parallelism, 1, kMaxDisparities);
   require_range("matching.parallel_rows", parallel_rows, 1, kMostParallelRows);
@@ -82,6 +88,12 @@ void MatchingConfig::validate() const {
   }
   require_range("matching.recurrence_latency", recurrence_latency, 1, 1000);
   require_range("matching.cost_weight", cost_weight, 1, kMaxCostWeight);
+  require_range("matching.outside_value", outside_value, 0, kMaxCost);
+  if (outside_cost != OutsideCost::kValue && outside_value != kMaxCost) {
+    throw UserError(
+        fmt::format("matching.outside_value = {}: has no effect without matching.outside_cost = \"value\"",
+                    outside_value));
+  }
   require_range("matching.p1", p1, 0, kMaxPenalty);
   require_range("matching.p2", p2, 0, kMaxPenalty);
   if (p1 >= p2) throw UserError(fmt::format("matching.p1 = {}: must be below matching.p2 = {}", p1, p2));
@@ -133,6 +145,7 @@ struct Matching::State {
         code_bits(bits),
         count(matching.range().count),
         cost_row(matching, columns, bits),
+        before(cost_row.reach()),
         first_pass(make_paths(matching, columns, false)),
         second_pass(make_paths(matching, columns, true)),
         costs(area(columns, count)),
@@ -150,7 +163,9 @@ struct Matching::State {
   }
 
   void match(const CensusCode* left, const CensusCode* right, Cost* out) {
-    cost_row.compute(left, right, costs.data());
+    if (row == 0) std::fill(before.begin(), before.end(), CensusCode{0});
+    cost_row.compute(left, right, before.data(), costs.data());
+    remember(right);
     std::fill_n(out, area(width, count), Cost{0});
     for (int x = 0; x < width; ++x) {
       for (Path& path : first_pass) path.advance(x, row, costs.data() + x * count, out + x * count);
@@ -160,6 +175,19 @@ struct Matching::State {
       const int x = width - 1 - i;
       east->advance(i, row, costs.data() + x * count, out + x * count);
     }
+  }
+
+  /// Moves `before` on to the next row.
+  void remember(const CensusCode* right) {
+    const auto fresh = std::min(static_cast<std::ptrdiff_t>(before.size()), std::ptrdiff_t{width});
+    std::move(before.begin() + fresh, before.end(), before.begin());
+    std::copy_n(right + width - fresh, fresh, before.end() - fresh);
+  }
+  /// The same from the frame store, for the row that begins at pixel `first`.
+  void recall(std::size_t first) {
+    const std::size_t there = std::min(before.size(), first);
+    std::fill(before.begin(), before.end(), CensusCode{0});
+    std::copy_n(right_codes.begin() + (first - there), there, before.end() - there);
   }
 
   /// Hands over row `y` of the path costs that the next row needs, pixels in raster order of the pass.
@@ -204,7 +232,8 @@ struct Matching::State {
   void sweep_back(const MatchingKeeper::Take& take) {
     for (int i = 0; i < height; ++i) {
       const std::size_t first = area(height - 1 - i, width);
-      cost_row.compute(left_codes.data() + first, right_codes.data() + first, costs.data());
+      recall(first);
+      cost_row.compute(left_codes.data() + first, right_codes.data() + first, before.data(), costs.data());
       for (int j = 0; j < width; ++j) {
         const int x = width - 1 - j;
         Cost* out = frame_sums.data() + first * count + x * count;
@@ -221,6 +250,7 @@ struct Matching::State {
   int count;
   int row = 0;
   CostRow cost_row;
+  std::vector<CensusCode> before;  ///< right codes before the row, as far as the costs need them
   std::vector<Path> first_pass;
   std::vector<Path> second_pass;
   std::optional<Path> east;  ///< runs through the row turned round

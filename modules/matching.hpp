@@ -38,6 +38,9 @@ enum class OutsideCost {
   kMaximum,    ///< the largest there is: all bits differ, or 255
   kReplicate,  ///< as the leftmost right pixel of the row
   kZeroCode,   ///< as a right pixel with code (or grey value) 0
+  kDelayLine,  ///< as the right pixel d positions before in raster order, at the end of a row above, as in a
+               ///< circuit whose window of right pixels is a plain delay; 0 before the frame's first pixel
+  kValue,      ///< `outside_value`
 };
 
 /// Predecessor of a pixel whose predecessor along the path is outside the image. Where there is none, L = C;
@@ -88,15 +91,14 @@ struct MatchingConfig {
   RecurrenceOrder recurrence_order = RecurrenceOrder::kPlain;  ///< not of the values; own choice
   PathStorage path_storage = PathStorage::kOnChip;  ///< of the stage's time, not of its values; own choice
   OutsideCost outside_cost =
-      OutsideCost::kReplicate;              ///< own choice: fewest false matches at the left border
+      OutsideCost::kReplicate;  ///< own choice: fewest false matches at the left border
+  int outside_value = 255;      ///< with OutsideCost::kValue, without a weight, 0..255; own choice
   PathStart path_start = PathStart::kCost;  ///< own choice
 
   DisparityRange range() const { return {disparity_offset, iterations * parallelism}; }
   int weight() const { return cost == MatchingCost::kHamming ? cost_weight : 1; }
-  /// Of two pixels of so many bits; at most 255.
-  int largest_cost(int code_bits) const {
-    return cost == MatchingCost::kHamming ? cost_weight * code_bits : (1 << code_bits) - 1;
-  }
+  /// Of two pixels of so many bits, wherever they lie; at most 255.
+  int largest_cost(int code_bits) const;
   /// Of a token of so many pixels.
   CostGroups groups(int pixels) const {
     return {static_cast<std::uint32_t>(pixels * iterations / parallel_rows), parallel_rows};
@@ -132,8 +134,7 @@ int summed_cost_bits(const MatchingConfig& config, int code_bits);
 ///
 /// With D = range().count and d = o_d + k, k = 0..D-1:
 ///   C(x, y, k)   = cost_weight * number of bits in which left(x, y) and right(x - d, y) differ, or (without
-///                  a weight) |left(x, y) - right(x - d, y)| (MatchingCost); OutsideCost, likewise, when
-///                  x - d < 0.
+///                  a weight) |left(x, y) - right(x - d, y)| (MatchingCost); OutsideCost when x - d < 0.
 ///   L_r(p, k)    = C(p, k) + min(L_r(q, k), L_r(q, k-1) + P1, L_r(q, k+1) + P1, m + P2) - m,
 ///                  q = predecessor of p along path r, m = min_k L_r(q, k), terms with k-1 < 0 or k+1 >= D
 ///                  left out; L_r(p, k) = C(p, k) where p has no predecessor (PathStart).

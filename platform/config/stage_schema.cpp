@@ -140,10 +140,16 @@ void describe(Schema& schema, MatchingConfig& config) {
   schema.choice("matching.outside_cost", config.outside_cost,
                 {{"maximum", OutsideCost::kMaximum},
                  {"replicate", OutsideCost::kReplicate},
-                 {"zero_code", OutsideCost::kZeroCode}},
+                 {"zero_code", OutsideCost::kZeroCode},
+                 {"delay_line", OutsideCost::kDelayLine},
+                 {"value", OutsideCost::kValue}},
                 "Cost of a right pixel left of the image: the largest there is (all bits differ, or 255), as "
-                "the first pixel of the row, or as a pixel with code (or grey value) 0.",
+                "the first pixel of the row, as a pixel with code (or grey value) 0, as the pixel that lies "
+                "there in raster order, in a row above, or the value matching.outside_value.",
                 chosen("not published"));
+  schema.integer("matching.outside_value", config.outside_value, {0, 255}, "units",
+                 "That cost with matching.outside_cost = value, whatever matching.cost_weight is.",
+                 chosen("as dear as any cost"));
   schema.choice(
       "matching.path_start", config.path_start,
       {{"cost", PathStart::kCost},

@@ -42,7 +42,9 @@ MatchingConfig any_config() {
   config.p2 = *rc::gen::inRange(config.p1 + 1, 256);
   config.paths = *rc::gen::inRange(1U, kEightPaths + 1);
   config.outside_cost =
-      *rc::gen::element(OutsideCost::kMaximum, OutsideCost::kReplicate, OutsideCost::kZeroCode);
+      *rc::gen::element(OutsideCost::kMaximum, OutsideCost::kReplicate, OutsideCost::kZeroCode,
+                        OutsideCost::kDelayLine, OutsideCost::kValue);
+  if (config.outside_cost == OutsideCost::kValue) config.outside_value = *rc::gen::element(0, 7, 255);
   config.path_start =
       *rc::gen::element(PathStart::kCost, PathStart::kClamp, PathStart::kCarry, PathStart::kDelayLine);
   return config;
@@ -93,6 +95,34 @@ TEST(matching, largest_differences_of_grey_values_do_not_overflow) {
   config.p2 = 255;
   config.paths = kEightPaths;
   EXPECT_EQ(run(config, 8, left, right), test::naive_matching(config, 8, left, right));
+}
+
+TEST(matching, a_delay_line_of_right_pixels_reaches_over_rows) {
+  // Of rows shorter than the range, several lie in it; the right images differ in what is before the row.
+  for (const unsigned paths : {kFourPaths, kEightPaths}) {
+    for (const int width : {1, 5, 40}) {
+      MatchingConfig config;
+      config.parallelism = 16;
+      config.iterations = 2;
+      config.disparity_offset = 3;
+      config.paths = paths;
+      config.outside_cost = OutsideCost::kDelayLine;
+      const auto left = random_codes(width, 30, 24, 5);
+      const auto right = random_codes(width, 30, 24, 6);
+      EXPECT_EQ(run(config, 24, left, right), test::naive_matching(config, 24, left, right));
+    }
+  }
+}
+
+TEST(matching, a_cost_outside_widens_path_costs) {
+  MatchingConfig config;
+  config.outside_value = 255;
+  EXPECT_EQ(config.largest_cost(24), 24);
+  config.outside_cost = OutsideCost::kValue;
+  EXPECT_EQ(config.largest_cost(24), 255);
+  EXPECT_EQ(summed_cost_bits(config, 24), 11);  // 4 * (255 + 255)
+  config.outside_value = 2;
+  EXPECT_EQ(config.largest_cost(24), 24);
 }
 
 TEST(matching, full_range_of_256) {
@@ -195,6 +225,12 @@ TEST(matching, bad_configuration) {
             "must be at most 256");
   EXPECT_EQ(complain([](auto& c) { c.cost_weight = 0; }), "matching.cost_weight = 0: must be within 1..4");
   EXPECT_EQ(complain([](auto& c) { c.cost_weight = 5; }), "matching.cost_weight = 5: must be within 1..4");
+  EXPECT_EQ(complain([](auto& c) { c.outside_value = -1; }),
+            "matching.outside_value = -1: must be within 0..255");
+  EXPECT_EQ(complain([](auto& c) { c.outside_value = 256; }),
+            "matching.outside_value = 256: must be within 0..255");
+  EXPECT_EQ(complain([](auto& c) { c.outside_value = 0; }),
+            "matching.outside_value = 0: has no effect without matching.outside_cost = \"value\"");
   EXPECT_EQ(complain([](auto& c) { c.p1 = -1; }), "matching.p1 = -1: must be within 0..255");
   EXPECT_EQ(complain([](auto& c) { c.p2 = 256; }), "matching.p2 = 256: must be within 0..255");
   EXPECT_EQ(complain([](auto& c) { c.p1 = 42; }), "matching.p1 = 42: must be below matching.p2 = 42");

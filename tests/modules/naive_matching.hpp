@@ -35,6 +35,12 @@ inline Grid<int> naive_costs(const MatchingConfig& config, int code_bits, const 
           cost = config.cost == MatchingCost::kHamming ? config.cost_weight * code_bits : 255;
         } else if (config.outside_cost == OutsideCost::kReplicate) {
           cost = naive_cost(config, left.at(x, y), right.at(0, y));
+        } else if (config.outside_cost == OutsideCost::kValue) {
+          cost = config.outside_value;
+        } else if (config.outside_cost == OutsideCost::kDelayLine) {
+          const int position = y * left.width + u;  // in raster order, wherever that lies
+          const CensusCode code = position < 0 ? 0 : right.at(position % left.width, position / left.width);
+          cost = naive_cost(config, left.at(x, y), code);
         } else {
           cost = naive_cost(config, left.at(x, y), 0);
         }
