@@ -111,10 +111,10 @@ void MatchingConfig::validate_tokens(int pixels) const {
         "and divide pipeline.pixels_per_token * matching.iterations = {}",
         parallel_rows, pixels, pixels * iterations));
   }
-  if (parallel_rows > 1 && (path_start == PathStart::kCarry || path_start == PathStart::kDelayLine)) {
+  if (parallel_rows > 1 && path_start != PathStart::kCost && path_start != PathStart::kClamp) {
     throw UserError(
         fmt::format("matching.parallel_rows = {}: needs matching.path_start = \"cost\" or \"clamp\", "
-                    "with others a row begins when the one above is done",
+                    "with others paths go on over the ends of rows",
                     parallel_rows));
   }
   if (parallel_rows > 1 && path_storage == PathStorage::kMemory) {

@@ -54,6 +54,10 @@ enum class PathStart {
                ///< that is (none before the frame's first pixel, or at distance 0), as in a circuit whose
                ///< line buffer is a plain delay; southern paths: the same in the image turned by 180 degrees;
                ///< E: none
+  kFirstColumn,  ///< all paths start together, by one signal, in the first column, where no path has a
+                 ///< predecessor, not even N and NE whose pixel is in the image; in all other columns as
+                 ///< kDelayLine (before the frame's first pixel: cleared registers, as good as none);
+                 ///< southern paths and E: the same in the image turned by 180 degrees, so in the last column
 };
 
 /// Where the path costs of the previous row lie, which the northern paths need, and in a second pass the
@@ -104,8 +108,8 @@ struct MatchingConfig {
     return {static_cast<std::uint32_t>(pixels * iterations / parallel_rows), parallel_rows};
   }
   /// Throws UserError unless tokens of so many pixels go through the circuit in whole groups of costs, and in
-  /// whole columns of its parallel rows or the other way round; and for parallel rows that would have to wait
-  /// for the end of the row above, or for the memory.
+  /// whole columns of its parallel rows or the other way round; and for parallel rows whose paths go on over
+  /// the ends of rows, or through the memory.
   void validate_tokens(int pixels) const;
   /// Throws UserError unless the cost is one of what comes in: census codes, or grey values.
   void validate_census(bool census) const;

@@ -68,6 +68,7 @@ int Path::predecessor(int x, int y) const {
   const int from_y = y - direction_.rows_up;
   const int here = y * width_ + x;
   const int there = from_y * width_ + from_x;
+  if (start_ == PathStart::kFirstColumn && x == 0) return -1;
   if (from_x >= 0 && from_x < width_) return there;
   const bool horizontal = direction_.rows_up == 0;
   switch (start_) {
@@ -78,6 +79,7 @@ int Path::predecessor(int x, int y) const {
     case PathStart::kCarry:
       return horizontal ? there : -1;
     case PathStart::kDelayLine:
+    case PathStart::kFirstColumn:
       return there < here ? there : -1;
   }
   return -1;

@@ -155,11 +155,11 @@ void describe(Schema& schema, MatchingConfig& config) {
       {{"cost", PathStart::kCost},
        {"clamp", PathStart::kClamp},
        {"carry", PathStart::kCarry},
-       {"delay_line", PathStart::kDelayLine}},
+       {"delay_line", PathStart::kDelayLine},
+       {"first_column", PathStart::kFirstColumn}},
       "Predecessor of a pixel whose path begins outside the image: none; for diagonal paths the pixel "
-      "straight "
-      "above or below; for path w the last pixel of the row above; or the pixel before in raster order, as "
-      "in a plain delay line.",
+      "straight above or below; for path w the last pixel of the row above; or the pixel before in raster "
+      "order, as in a plain delay line; or that, but in the first column all paths start anew.",
       chosen("not published"));
 }
 

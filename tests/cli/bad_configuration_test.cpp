@@ -59,11 +59,10 @@ TEST_F(BadConfiguration, ParallelRowsAndTokens) {
          "matching.parallel_rows = 2: needs matching.path_storage = \"on_chip\", costs of rows at once do "
          "not pass "
          "the memory");
-  for (const char* start : {"carry", "delay_line"}) {
+  for (const char* start : {"carry", "delay_line", "first_column"}) {
     starts(std::string("--set matching.parallel_rows=2 --set matching.path_start=") + start,
-           "matching.parallel_rows = 2: needs matching.path_start = \"cost\" or \"clamp\", with others a row "
-           "begins "
-           "when the one above is done");
+           "matching.parallel_rows = 2: needs matching.path_start = \"cost\" or \"clamp\", with others paths "
+           "go on over the ends of rows");
   }
   EXPECT_EQ(
       error("--set pipeline.pixels_per_token=3"),

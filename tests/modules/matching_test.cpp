@@ -45,8 +45,8 @@ MatchingConfig any_config() {
       *rc::gen::element(OutsideCost::kMaximum, OutsideCost::kReplicate, OutsideCost::kZeroCode,
                         OutsideCost::kDelayLine, OutsideCost::kValue);
   if (config.outside_cost == OutsideCost::kValue) config.outside_value = *rc::gen::element(0, 7, 255);
-  config.path_start =
-      *rc::gen::element(PathStart::kCost, PathStart::kClamp, PathStart::kCarry, PathStart::kDelayLine);
+  config.path_start = *rc::gen::element(PathStart::kCost, PathStart::kClamp, PathStart::kCarry,
+                                        PathStart::kDelayLine, PathStart::kFirstColumn);
   return config;
 }
 
@@ -112,6 +112,27 @@ TEST(matching, a_delay_line_of_right_pixels_reaches_over_rows) {
       EXPECT_EQ(run(config, 24, left, right), test::naive_matching(config, 24, left, right));
     }
   }
+}
+
+TEST(matching, all_paths_start_in_the_first_column) {
+  const auto left = random_codes(7, 5, 24, 8);
+  const auto right = random_codes(7, 5, 24, 9);
+  MatchingConfig config;
+  config.parallelism = 4;
+  config.iterations = 1;
+  config.path_start = PathStart::kFirstColumn;
+  const Grid<Cost> all = run(config, 24, left, right);
+  config.path_start = PathStart::kDelayLine;
+  const Grid<Cost> delayed = run(config, 24, left, right);
+  const Grid<int> costs = test::naive_costs(config, 24, left, right);
+  bool later_differ = false;
+  for (int y = 0; y < 5; ++y) {
+    for (int k = 0; k < 4; ++k) {
+      EXPECT_EQ(all.at(0, y, k), 4 * costs.at(0, y, k)) << y;
+      for (int x = 1; x < 7; ++x) later_differ = later_differ || all.at(x, y, k) != delayed.at(x, y, k);
+    }
+  }
+  EXPECT_TRUE(later_differ);
 }
 
 TEST(matching, a_cost_outside_widens_path_costs) {

@@ -64,6 +64,8 @@ struct NaivePredecessor {
 
 inline NaivePredecessor naive_predecessor(const MatchingConfig& config, NaivePath path, int x, int y, int w,
                                           int h) {
+  const bool backwards = path.dy > 0 || (path.dy == 0 && path.dx > 0);
+  if (config.path_start == PathStart::kFirstColumn && x == (backwards ? w - 1 : 0)) return {false, 0, 0};
   const auto inside = [&](int u, int v) { return u >= 0 && v >= 0 && u < w && v < h; };
   const int u = x + path.dx;
   const int v = y + path.dy;
@@ -71,7 +73,9 @@ inline NaivePredecessor naive_predecessor(const MatchingConfig& config, NaivePat
   const bool diagonal = path.dx != 0 && path.dy != 0;
   if (config.path_start == PathStart::kClamp && diagonal) return {inside(x, v), x, v};
   if (config.path_start == PathStart::kCarry && path.bit == kPathW) return {y > 0, w - 1, y - 1};
-  if (config.path_start == PathStart::kDelayLine && path.bit != kPathE) {
+  const bool delay_line =
+      config.path_start == PathStart::kDelayLine || config.path_start == PathStart::kFirstColumn;
+  if (delay_line && path.bit != kPathE) {
     // Raster order from the end the path comes from; turned by 180 degrees for the southern paths.
     const bool turned = path.dy > 0;
     const int here = turned ? (h - 1 - y) * w + (w - 1 - x) : y * w + x;
