@@ -22,7 +22,9 @@ namespace {
 
 constexpr int kMaxDisparities = 256;
 constexpr int kMaxPenalty = 255;
-constexpr int kMaxCost = 255;      // of two pixels
+constexpr int kMaxCost = 255;  // of two pixels
+constexpr int kMostPathBits = 16;
+constexpr int kMaxShift = 11;      // one bit is left of twelve
 constexpr int kCodePiece = 32;     // bits of a code that are packed at once
 constexpr int kMaxCostWeight = 4;  // a weighted cost of 63 bits fits in a byte
 constexpr int kMostParallelRows = 64;
@@ -36,18 +38,27 @@ int path_count(unsigned paths) {
 
 std::size_t count_of(const MatchingConfig& config) { return config.range().count; }
 
-// A path cost at most, whatever the penalties.
+// A path cost at most, whatever the penalties, and its bits.
 int largest_path_cost(const MatchingConfig& config, int code_bits) {
-  return config.largest_cost(code_bits) + kMaxPenalty;
+  const int needed = config.largest_cost(code_bits) + kMaxPenalty;
+  return config.path_bits == 0 ? needed : std::min(needed, (1 << config.path_bits) - 1);
+}
+int path_cost_bits(const MatchingConfig& config, int code_bits) {
+  return config.path_bits == 0 ? bits_for(largest_path_cost(config, code_bits)) : config.path_bits;
 }
 
-// Of a path cost, and of a sum of those of the first pass if there is a second one.
-int path_bits(const MatchingConfig& config, int code_bits) {
-  return bits_for(largest_path_cost(config, code_bits));
+// Of sums over some of the paths, and of those of the first pass if there is a second one.
+int sum_bits(const MatchingConfig& config, int code_bits, unsigned paths) {
+  return bits_for(path_count(paths) * largest_path_cost(config, code_bits));
 }
 int first_sum_bits(const MatchingConfig& config, int code_bits) {
-  const int paths = path_count(config.paths & ~kSouthernPaths);
-  return paths == 0 ? 0 : bits_for(paths * largest_path_cost(config, code_bits));
+  const unsigned paths = config.paths & ~kSouthernPaths;
+  return paths == 0 ? 0 : sum_bits(config, code_bits, paths);
+}
+
+void shift_down(Cost* sums, std::size_t count, int shift) {
+  if (shift == 0) return;
+  for (std::size_t i = 0; i < count; ++i) sums[i] = static_cast<Cost>(sums[i] >> shift);
 }
 
 /// The northern and horizontal paths of `paths` as delay lines; `turned`: the paths opposite to the southern
@@ -97,6 +108,12 @@ void MatchingConfig::validate() const {
   require_range("matching.p1", p1, 0, kMaxPenalty);
   require_range("matching.p2", p2, 0, kMaxPenalty);
   if (p1 >= p2) throw UserError(fmt::format("matching.p1 = {}: must be below matching.p2 = {}", p1, p2));
+  require_range("matching.path_bits", path_bits, 0, kMostPathBits);
+  if (path_overflow == PathOverflow::kWrap && path_bits == 0) {
+    throw UserError(
+        "matching.path_overflow = \"wrap\": has no effect with matching.path_bits = 0, as many as needed");
+  }
+  require_range("matching.sum_shift", sum_shift, 0, kMaxShift);
   if (paths == 0 || paths > kEightPaths) {
     throw UserError(
         fmt::format("matching.paths = {:#x}: must name one to eight of w, nw, n, ne, e, sw, s, se", paths));
@@ -193,7 +210,7 @@ struct Matching::State {
   /// Hands over row `y` of the path costs that the next row needs, pixels in raster order of the pass.
   void keep_row(std::vector<Path>& pass, int y, const MatchingKeeper::Take& take) const {
     if (!take || y + 1 == height) return;
-    const int bits = path_bits(config, code_bits);
+    const int bits = path_cost_bits(config, code_bits);
     BitPacker packer;
     for (int x = 0; x < width; ++x) {
       for (Path& path : pass) {
@@ -280,6 +297,7 @@ void Matching::push(const CensusCode* left, const CensusCode* right, const RowSi
   const std::size_t first = area(s.row, s.width);
   if (one_pass()) {
     s.match(left, right, s.sums.data());
+    shift_down(s.sums.data(), s.sums.size(), config_.sum_shift);
     emit(s.sums.data());
   } else {
     std::copy_n(left, s.width, s.left_codes.data() + first);
@@ -292,11 +310,12 @@ void Matching::push(const CensusCode* left, const CensusCode* right, const RowSi
   s.row = 0;
   if (one_pass()) return;
   s.sweep_back(keeper.row);
+  shift_down(s.frame_sums.data(), s.frame_sums.size(), config_.sum_shift);
   for (int y = 0; y < s.height; ++y) emit(s.frame_sums.data() + area(y, s.width) * s.count);
 }
 
 int summed_cost_bits(const MatchingConfig& config, int code_bits) {
-  return bits_for(path_count(config.paths) * largest_path_cost(config, code_bits));
+  return bits_for(path_count(config.paths) * largest_path_cost(config, code_bits) >> config.sum_shift);
 }
 
 // With parallel rows the last one of them has to come in before the first column is worked on, and its last
@@ -310,7 +329,7 @@ int Matching::look_ahead_pixels() const {
 }
 
 std::int64_t Matching::path_pixel_bits() const {
-  return path_record_format(1, count_of(config_), path_bits(config_, code_bits_)).width().count();
+  return path_record_format(1, count_of(config_), path_cost_bits(config_, code_bits_)).width().count();
 }
 
 std::int64_t Matching::storage_bits() const {
@@ -333,7 +352,7 @@ std::int64_t Matching::storage_bits() const {
   bits += (at_once - 1) * width * (2 * code_bits_ + kDisparityBits);
   if (config_.paths & kPathE) {
     bits += at_once * width * count *
-            (bits_for(config_.largest_cost(code_bits_)) + summed_cost_bits(config_, code_bits_));
+            (bits_for(config_.largest_cost(code_bits_)) + sum_bits(config_, code_bits_, config_.paths));
   }
   return bits;
 }

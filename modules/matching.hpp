@@ -60,6 +60,12 @@ enum class PathStart {
                  ///< southern paths and E: the same in the image turned by 180 degrees, so in the last column
 };
 
+/// What becomes of a path cost that does not fit in `path_bits`.
+enum class PathOverflow {
+  kSaturate,  ///< the largest value that fits
+  kWrap,      ///< its upper bits are lost
+};
+
 /// Where the path costs of the previous row lie, which the northern paths need, and in a second pass the
 /// southern ones.
 enum class PathStorage {
@@ -98,6 +104,10 @@ struct MatchingConfig {
       OutsideCost::kReplicate;  ///< own choice: fewest false matches at the left border
   int outside_value = 255;      ///< with OutsideCost::kValue, without a weight, 0..255; own choice
   PathStart path_start = PathStart::kCost;  ///< own choice
+  /// Bits of a path cost, 1..16; 0: as many as it may need. 0: own choice.
+  int path_bits = 0;
+  PathOverflow path_overflow = PathOverflow::kSaturate;  ///< own choice
+  int sum_shift = 0;  ///< bits that a sum of path costs is shifted down by, 0..11; own choice
 
   DisparityRange range() const { return {disparity_offset, iterations * parallelism}; }
   int weight() const { return cost == MatchingCost::kHamming ? cost_weight : 1; }
@@ -141,8 +151,10 @@ int summed_cost_bits(const MatchingConfig& config, int code_bits);
 ///                  a weight) |left(x, y) - right(x - d, y)| (MatchingCost); OutsideCost when x - d < 0.
 ///   L_r(p, k)    = C(p, k) + min(L_r(q, k), L_r(q, k-1) + P1, L_r(q, k+1) + P1, m + P2) - m,
 ///                  q = predecessor of p along path r, m = min_k L_r(q, k), terms with k-1 < 0 or k+1 >= D
-///                  left out; L_r(p, k) = C(p, k) where p has no predecessor (PathStart).
-///   output(p, k) = sum over the paths of L_r(p, k).
+///                  left out; L_r(p, k) = C(p, k) where p has no predecessor (PathStart). With b = path_bits
+///                  > 0 the result is brought to b bits (PathOverflow): min(L_r, 2^b - 1) or L_r mod 2^b goes
+///                  into the sum, and into m and the terms of the next pixel, which are added without loss.
+///   output(p, k) = floor(sum over the paths of L_r(p, k) / 2^sum_shift).
 /// L_r <= largest C + P2 <= 510, so that the sum of eight paths fits in 12 bits.
 ///
 /// Without southern paths nothing larger than some rows is held, from the first row on. With them the

@@ -8,8 +8,9 @@
 namespace parallax {
 namespace {
 
-/// Above every path cost (at most 507), and no overflow when a penalty (at most 255) is added.
+/// Above every path cost, and no overflow when a penalty (at most 255) is added.
 constexpr std::int16_t kNever = 0x3FFF;
+constexpr int kBitsOfEveryPathCost = 9;  // at most 510
 
 std::int16_t min16(std::int16_t a, std::int16_t b) { return a < b ? a : b; }
 std::int16_t add16(std::int16_t a, std::int16_t b) { return static_cast<std::int16_t>(a + b); }
@@ -52,6 +53,9 @@ Path::Path(Direction direction, const MatchingConfig& config, int width)
       count_(config.range().count),
       p1_(static_cast<std::int16_t>(config.p1)),
       p2_(static_cast<std::int16_t>(config.p2)),
+      narrow_(config.path_bits != 0 && config.path_bits < kBitsOfEveryPathCost),
+      overflow_(config.path_overflow),
+      largest_(static_cast<std::int16_t>(narrow_ ? (1 << config.path_bits) - 1 : kNever)),
       width_(width),
       slots_(direction.rows_up == 0 ? 2 : width + 2) {
   costs_.assign(area(slots_, count_ + PathCosts::kGuard) + PathCosts::kGuard, kNever);
@@ -93,6 +97,20 @@ void Path::advance(int x, int y, const std::uint8_t* costs, Cost* sums) {
   } else {
     const PathCosts from = slot(before);
     *here.minimum = continue_path(costs, count_, from.costs, *from.minimum, p1_, p2_, here.costs, sums);
+  }
+  if (narrow_) narrow(here, sums);
+}
+
+// What does not fit comes back out of the sums, too.
+void Path::narrow(const PathCosts& here, Cost* sums) const {
+  *here.minimum = kNever;
+  for (int k = 0; k < count_; ++k) {
+    const std::int16_t whole = here.costs[k];
+    const auto kept = overflow_ == PathOverflow::kSaturate ? min16(whole, largest_)
+                                                           : static_cast<std::int16_t>(whole & largest_);
+    here.costs[k] = kept;
+    sums[k] = static_cast<Cost>(sums[k] - (whole - kept));
+    *here.minimum = min16(*here.minimum, kept);
   }
 }
 

@@ -39,6 +39,7 @@ class Path {
 
  private:
   PathCosts slot(int position);
+  void narrow(const PathCosts& here, Cost* sums) const;
   int predecessor(int x, int y) const;  ///< raster position, negative if there is none
 
   Direction direction_;
@@ -46,6 +47,9 @@ class Path {
   int count_;
   std::int16_t p1_;
   std::int16_t p2_;
+  bool narrow_;  ///< path costs may not fit in the circuit's registers
+  PathOverflow overflow_;
+  std::int16_t largest_;  ///< in these registers
   int width_;
   int slots_;
   std::vector<std::int16_t> costs_;

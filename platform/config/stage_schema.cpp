@@ -161,6 +161,17 @@ void describe(Schema& schema, MatchingConfig& config) {
       "straight above or below; for path w the last pixel of the row above; or the pixel before in raster "
       "order, as in a plain delay line; or that, but in the first column all paths start anew.",
       chosen("not published"));
+  schema.integer("matching.path_bits", config.path_bits, {0, 16}, "bit",
+                 "Bits of a path cost in line buffers and sums; 0: as many as the largest one needs.",
+                 chosen("not published"));
+  schema.choice(
+      "matching.path_overflow", config.path_overflow,
+      {{"saturate", PathOverflow::kSaturate}, {"wrap", PathOverflow::kWrap}},
+      "What becomes of a path cost that does not fit in matching.path_bits: the largest value, or its "
+      "lower bits.",
+      chosen("not published"));
+  schema.integer("matching.sum_shift", config.sum_shift, {0, 11}, "bit",
+                 "Lowest bits of a sum of path costs that are left out.", chosen("not published"));
 }
 
 void describe(Schema& schema, SubpixelConfig& config) {

@@ -102,6 +102,33 @@ TEST_P(RealPair, equals_the_definitions) {
   EXPECT_EQ(test::run_chain(config, l, r), naive_chain(config, l, r));
 }
 
+TEST_P(RealPair, equals_the_definitions_as_delay_lines_have_it) {
+  const Scene scene = load_scene(GetParam());
+  if (scene.left.empty() || scene.right.empty()) GTEST_SKIP() << "no data";
+  constexpr int kRows = 60;
+  const auto l = test::to_grid(scene.left.rowRange(0, kRows));
+  const auto r = test::to_grid(scene.right.rowRange(0, kRows));
+  ChainConfig config;
+  config.matching.iterations = 2;
+  config.census.border = CensusBorder::kDelayLine;
+  config.matching.outside_cost = OutsideCost::kDelayLine;
+  config.matching.path_start = PathStart::kFirstColumn;
+  config.matching.path_bits = 5;
+  config.matching.sum_shift = 1;
+  EXPECT_EQ(test::run_chain(config, l, r), naive_chain(config, l, r));
+
+  config.census.enabled = false;
+  config.matching.cost = MatchingCost::kAbsoluteDifference;
+  config.matching.paths = kEightPaths;
+  config.matching.path_bits = 7;
+  config.matching.path_overflow = PathOverflow::kWrap;
+  EXPECT_EQ(test::run_chain(config, l, r), naive_chain(config, l, r));
+
+  config.matching.outside_cost = OutsideCost::kValue;
+  config.matching.outside_value = 40;
+  EXPECT_EQ(test::run_chain(config, l, r), naive_chain(config, l, r));
+}
+
 struct Score {
   double bad;       ///< percent of the valid pixels that are off by more than 2 px
   double coverage;  ///< percent of the visible pixels that are valid

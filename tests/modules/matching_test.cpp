@@ -47,6 +47,11 @@ MatchingConfig any_config() {
   if (config.outside_cost == OutsideCost::kValue) config.outside_value = *rc::gen::element(0, 7, 255);
   config.path_start = *rc::gen::element(PathStart::kCost, PathStart::kClamp, PathStart::kCarry,
                                         PathStart::kDelayLine, PathStart::kFirstColumn);
+  config.path_bits = *rc::gen::element(0, 1, 5, 7, 8, 9, 16);
+  if (config.path_bits > 0) {
+    config.path_overflow = *rc::gen::element(PathOverflow::kSaturate, PathOverflow::kWrap);
+  }
+  config.sum_shift = *rc::gen::element(0, 0, 1, 3, 11);
   return config;
 }
 
@@ -144,6 +149,26 @@ TEST(matching, a_cost_outside_widens_path_costs) {
   EXPECT_EQ(summed_cost_bits(config, 24), 11);  // 4 * (255 + 255)
   config.outside_value = 2;
   EXPECT_EQ(config.largest_cost(24), 24);
+}
+
+TEST(matching, widths_follow_the_registers_of_the_circuit) {
+  MatchingConfig config;
+  config.path_bits = 6;
+  config.paths = kFourPaths | kPathE;
+  {
+    const Matching matching(config, 640, 480, 24);
+    EXPECT_EQ(summed_cost_bits(config, 24), 9);  // 5 * 63
+    EXPECT_EQ(matching.storage_bits(), 6 * 129 * (3 * 640 + 2) + 24 * 127 + 640 * 128 * (5 + 9));
+  }
+  config.sum_shift = 2;
+  EXPECT_EQ(summed_cost_bits(config, 24), 7);  // 315 / 4 = 78
+  EXPECT_EQ(Matching(config, 640, 480, 24).storage_bits(),
+            6 * 129 * (3 * 640 + 2) + 24 * 127 + 640 * 128 * (5 + 9));  // sums are shifted when complete
+  config.path_bits = 12;                                                // more than are needed
+  EXPECT_EQ(summed_cost_bits(config, 24), 9);                           // 5 * 279 / 4
+  config.paths = kEightPaths;
+  config.path_bits = 8;
+  EXPECT_EQ(Matching(config, 64, 48, 24).store().frame, 128 * 11 + 2 * 24);  // 5 * 255
 }
 
 TEST(matching, full_range_of_256) {
@@ -252,6 +277,11 @@ TEST(matching, bad_configuration) {
             "matching.outside_value = 256: must be within 0..255");
   EXPECT_EQ(complain([](auto& c) { c.outside_value = 0; }),
             "matching.outside_value = 0: has no effect without matching.outside_cost = \"value\"");
+  EXPECT_EQ(complain([](auto& c) { c.path_bits = 17; }), "matching.path_bits = 17: must be within 0..16");
+  EXPECT_EQ(
+      complain([](auto& c) { c.path_overflow = PathOverflow::kWrap; }),
+      "matching.path_overflow = \"wrap\": has no effect with matching.path_bits = 0, as many as needed");
+  EXPECT_EQ(complain([](auto& c) { c.sum_shift = 12; }), "matching.sum_shift = 12: must be within 0..11");
   EXPECT_EQ(complain([](auto& c) { c.p1 = -1; }), "matching.p1 = -1: must be within 0..255");
   EXPECT_EQ(complain([](auto& c) { c.p2 = 256; }), "matching.p2 = 256: must be within 0..255");
   EXPECT_EQ(complain([](auto& c) { c.p1 = 42; }), "matching.p1 = 42: must be below matching.p2 = 42");

@@ -115,6 +115,10 @@ inline void naive_add_path(const MatchingConfig& config, NaivePath path, const G
         if (k + 1 < costs.depth) best = std::min(best, along.at(q.x, q.y, k + 1) + config.p1);
         value += best - lowest;
       }
+      if (config.path_bits > 0) {
+        const int values = 1 << config.path_bits;
+        value = config.path_overflow == PathOverflow::kWrap ? value % values : std::min(value, values - 1);
+      }
       along.at(x, y, k) = value;
       sums.at(x, y, k) = static_cast<Cost>(sums.at(x, y, k) + value);
     }
@@ -130,6 +134,7 @@ inline Grid<Cost> naive_matching(const MatchingConfig& config, int code_bits, co
   for (const NaivePath& path : paths) {
     if (config.paths & path.bit) naive_add_path(config, path, costs, sums);
   }
+  for (Cost& sum : sums.data) sum = static_cast<Cost>(sum / (1 << config.sum_shift));
   return sums;
 }
 
