@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "modules/noise_reduction.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 
 #include "modules/require_range.hpp"
 #include "modules/similar.hpp"
+#include "tlm/error.hpp"
 
 namespace parallax {
 
@@ -15,16 +18,30 @@ constexpr int kLargestWindow = 7;
 
 }  // namespace
 
+int NoiseReductionConfig::side() const {
+  if (of_similar()) return window;
+  return kind == NoiseReductionKind::kMedian3x3 ? 3 : 5;
+}
+
 void NoiseReductionConfig::validate() const {
   require_odd_range("noise_reduction.window", window, 3, kLargestWindow);
   require_range("noise_reduction.max_difference", max_difference, 0, kMaxDisparityDifference);
+  const auto refuse = [this](const char* key, int value, int unchanged) {
+    if (of_similar() || value == unchanged) return;
+    throw UserError(
+        fmt::format("noise_reduction.{} = {}: has no effect with noise_reduction.kind = \"median_{}x{}\"",
+                    key, value, side(), side()));
+  };
+  const NoiseReductionConfig defaults;
+  refuse("window", window, defaults.window);
+  refuse("max_difference", max_difference, defaults.max_difference);
 }
 
 NoiseReduction::NoiseReduction(const NoiseReductionConfig& config, int width, int height)
     : config_((config.validate(), config)),
       width_(width),
       height_(height),
-      half_(config.window / 2),
+      half_(config.side() / 2),
       rows_(half_ + 1, width, 0, {}),
       values_(2 * half_ + 1, width, half_, kSimilarToNone),
       sums_(width),
@@ -43,7 +60,9 @@ void NoiseReduction::push(const Disparity* row, const RowSink<Disparity>& emit) 
   while (out_row_ < height_ && (in_row_ > out_row_ + half_ || in_row_ == height_)) {
     // In place: the rows below read values_, which keeps the input.
     Disparity* out = rows_.row(out_row_);
-    if (config_.kind == NoiseReductionKind::kMean) {
+    if (!config_.of_similar()) {
+      plain_median_row(out_row_, out);
+    } else if (config_.kind == NoiseReductionKind::kMean) {
       mean_row(out_row_, out);
     } else {
       median_row(out_row_, out);
@@ -98,6 +117,21 @@ void NoiseReduction::median_row(int y, Disparity* out) {
   }
 }
 
+void NoiseReduction::plain_median_row(int y, Disparity* out) {
+  if (y < half_ || y + half_ >= height_) return;
+  const int side = config_.side();
+  std::array<std::uint16_t, kLargestWindow * kLargestWindow> members;
+  const auto middle = members.begin() + (side * side - 1) / 2;
+  for (int x = half_; x + half_ < width_; ++x) {
+    auto end = members.begin();
+    for (int v = y - half_; v <= y + half_; ++v) end = std::copy_n(values_.row(v) + x - half_, side, end);
+    std::nth_element(members.begin(), middle, end);
+    const bool was_valid = out[x].valid();
+    out[x].value = *middle == kSimilarToNone ? kInvalidDisparity : *middle;
+    if (out[x].valid() != was_valid) out[x].cause = was_valid ? Cause::kNoise : Cause::kMatched;
+  }
+}
+
 int NoiseReduction::look_ahead_rows() const { return config_.enabled ? half_ : 0; }
 
 int NoiseReduction::look_ahead_pixels() const { return config_.enabled ? half_ : 0; }
@@ -106,7 +140,7 @@ std::int64_t NoiseReduction::storage_bits(int at_once) const {
   if (!config_.enabled) return 0;
   constexpr int kDisparityBits = 12;
   const std::int64_t line_buffers = std::int64_t{2} * half_ * width_ * kDisparityBits;
-  const std::int64_t window = std::int64_t{config_.window} * (config_.window + at_once - 1) * kDisparityBits;
+  const std::int64_t window = std::int64_t{config_.side()} * (config_.side() + at_once - 1) * kDisparityBits;
   return line_buffers + window;
 }
 

@@ -12,8 +12,10 @@ namespace parallax {
 
 /// What a pixel is replaced by.
 enum class NoiseReductionKind {
-  kMean,    ///< mean of its similar neighbours
-  kMedian,  ///< median of its similar neighbours
+  kMean,       ///< mean of its similar neighbours
+  kMedian,     ///< median of its similar neighbours
+  kMedian3x3,  ///< median of all pixels around it, similar or not, as a plain sorting network has it
+  kMedian5x5,
 };
 
 struct NoiseReductionConfig {
@@ -21,12 +23,14 @@ struct NoiseReductionConfig {
   bool enabled = true;
   /// Own choice: the device's filter is not published.
   NoiseReductionKind kind = NoiseReductionKind::kMean;
-  /// Width and height of the neighbourhood in px, odd, 3..7. Own choice.
+  /// Width and height of the neighbourhood in px, odd, 3..7; of the first two kinds. Own choice.
   int window = 3;
   /// Neighbours that differ from the centre by more than this, in 1/16 px, belong to another surface.
-  /// 0..4094. Own choice.
+  /// 0..4094; of the first two kinds. Own choice.
   int max_difference = 24;
 
+  bool of_similar() const { return kind == NoiseReductionKind::kMean || kind == NoiseReductionKind::kMedian; }
+  int side() const;  ///< of the neighbourhood, px
   void validate() const;
 };
 
@@ -38,7 +42,14 @@ struct NoiseReductionConfig {
 /// most max_difference; c is one of them. n is their number, s their sum. The pixel becomes
 ///   kMean:   floor((2 * s + n) / (2 * n)), the mean rounded to nearest, halves up;
 ///   kMedian: the element at position floor((n - 1) / 2) of N in ascending order (the lower one of two).
-/// Causes stay. Invalid pixels pass unchanged. All reads are of the input.
+/// Causes stay. Invalid pixels pass unchanged.
+///   kMedian3x3, kMedian5x5: each pixel, valid or not, whose window of 3x3 or 5x5 lies inside the image
+///   becomes
+///            the element at position (n - 1) / 2 of all n = 9 or 25 disparities in it, in ascending order,
+///            an invalid one being 0xFFF and so the largest: the result is invalid where most of them are.
+///            All other pixels pass unchanged. Where a valid pixel becomes invalid its cause is kNoise, the
+///            other way round kMatched; other causes stay.
+/// All reads are of the input.
 ///
 /// The division is exact. A circuit multiplies by a stored reciprocal, one for each n (49 at most), as this
 /// code does: with m = floor(2^32 / (2n)) + 1, floor(v / (2n)) = (v * m) >> 32 for all v < 2^32 / (2n), and v
@@ -57,6 +68,7 @@ class NoiseReduction {
  private:
   void mean_row(int y, Disparity* out);
   void median_row(int y, Disparity* out);
+  void plain_median_row(int y, Disparity* out);
 
   NoiseReductionConfig config_;
   int width_;

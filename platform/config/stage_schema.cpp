@@ -266,10 +266,16 @@ void describe(Schema& schema, GapInterpolationConfig& config) {
 void describe(Schema& schema, NoiseReductionConfig& config) {
   schema.boolean("noise_reduction.enabled", config.enabled, "Whether the disparity map is smoothed.",
                  stated(kDeviceSoftware));
-  schema.choice("noise_reduction.kind", config.kind,
-                {{"mean", NoiseReductionKind::kMean}, {"median", NoiseReductionKind::kMedian}},
-                "What a pixel is replaced by: the mean or the median of its similar neighbours.",
-                chosen("not published"));
+  schema.choice(
+      "noise_reduction.kind", config.kind,
+      {{"mean", NoiseReductionKind::kMean},
+       {"median", NoiseReductionKind::kMedian},
+       {"median_3x3", NoiseReductionKind::kMedian3x3},
+       {"median_5x5", NoiseReductionKind::kMedian5x5}},
+      "What a pixel is replaced by: the mean or the median of its similar neighbours, or the median of "
+      "all disparities around it, invalid ones being the largest; then without "
+      "noise_reduction.window and noise_reduction.max_difference.",
+      chosen("not published"));
   schema.integer("noise_reduction.window", config.window, {3, 7}, "px",
                  "Width and height of the neighbourhood, odd.", chosen("not published"));
   schema.integer("noise_reduction.max_difference", config.max_difference, kDisparitySteps, kDisparityStep,

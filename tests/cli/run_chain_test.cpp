@@ -151,6 +151,8 @@ std::vector<Case> cases() {
        {96, 64},
        with({"matching.path_bits=6", "matching.sum_shift=1", "matching.path_start=first_column",
              "matching.path_storage=memory"})},
+      {"median_3x3", {96, 64}, with({"noise_reduction.kind=median_3x3"})},
+      {"median_5x5", {96, 64}, with({"noise_reduction.kind=median_5x5"})},
       {"no_border_mask", {96, 64}, with({"subpixel.mask_border=false"})},
       {"penalties", {96, 64}, with({"matching.p1=3", "matching.p2=120"})},
       {"no_filters", {96, 64}, with(kNoFilters)},

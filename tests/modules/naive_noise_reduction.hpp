@@ -10,8 +10,31 @@
 
 namespace parallax::test {
 
+inline DisparityImage naive_plain_median(int side, const DisparityImage& input) {
+  DisparityImage output = input;
+  const int h = side / 2;
+  for (int y = h; y < input.height - h; ++y) {
+    for (int x = h; x < input.width - h; ++x) {
+      std::vector<int> all;
+      for (int v = y - h; v <= y + h; ++v) {
+        for (int u = x - h; u <= x + h; ++u)
+          all.push_back(input.at(u, v).valid() ? input.at(u, v).value : 4095);
+      }
+      std::sort(all.begin(), all.end());
+      const int median = all[all.size() / 2];
+      Disparity& pixel = output.at(x, y);
+      if (median == 4095 && pixel.valid()) pixel.cause = Cause::kNoise;
+      if (median != 4095 && !pixel.valid()) pixel.cause = Cause::kMatched;
+      pixel.value = static_cast<std::uint16_t>(median);
+    }
+  }
+  return output;
+}
+
 inline DisparityImage naive_noise_reduction(const NoiseReductionConfig& config, const DisparityImage& input) {
   if (!config.enabled) return input;
+  if (config.kind == NoiseReductionKind::kMedian3x3) return naive_plain_median(3, input);
+  if (config.kind == NoiseReductionKind::kMedian5x5) return naive_plain_median(5, input);
   const int h = (config.window - 1) / 2;
   DisparityImage output = input;
   for (int y = 0; y < input.height; ++y) {

@@ -26,6 +26,33 @@ TEST(NoiseReduction, EqualsTheDefinition) {
   }
 }
 
+TEST(NoiseReduction, PlainMediansEqualTheDefinition) {
+  for (const auto kind : {NoiseReductionKind::kMedian3x3, NoiseReductionKind::kMedian5x5}) {
+    NoiseReductionConfig config;
+    config.kind = kind;
+    expect_matches_reference<NoiseReduction>(config, naive_noise_reduction);
+    if (HasFatalFailure()) return;
+  }
+}
+
+TEST(NoiseReduction, PlainMediansFillAndEmptyAndLeaveTheBorder) {
+  DisparityImage image(5, 3);
+  for (Disparity& pixel : image.pixels) pixel = {100, Cause::kMatched};
+  image.at(1, 1) = {kInvalidDisparity, Cause::kTexture};  // three of nine around it are: filled
+  image.at(0, 0) = image.at(0, 1) = {kInvalidDisparity, Cause::kBorder};
+  image.at(2, 1) = {900, Cause::kMatched};
+  image.at(3, 0).value = image.at(3, 2).value = image.at(4, 1).value = image.at(4, 2).value =
+      image.at(4, 0).value = kInvalidDisparity;  // five around (3, 1): emptied
+  NoiseReductionConfig config;
+  config.kind = NoiseReductionKind::kMedian3x3;
+  NoiseReduction median(config, 5, 3);
+  DisparityImage expected = image;
+  expected.at(1, 1) = {100, Cause::kMatched};
+  expected.at(2, 1) = {100, Cause::kMatched};
+  expected.at(3, 1) = {kInvalidDisparity, Cause::kNoise};
+  expect_equal(filtered(median, image), expected);
+}
+
 RC_GTEST_PROP(NoiseReduction, EqualsTheDefinitionForAnyConfiguration, ()) {
   NoiseReductionConfig config;
   config.kind = *rc::gen::element(NoiseReductionKind::kMean, NoiseReductionKind::kMedian);
@@ -104,6 +131,13 @@ TEST(NoiseReduction, DeclaresWhatItsCircuitNeeds) {
   EXPECT_EQ(reduction.look_ahead_rows(), 1);
   EXPECT_EQ(reduction.look_ahead_pixels(), 1);
   EXPECT_EQ(reduction.storage_bits(), (2 * 640 + 9) * 12);
+  config.kind = NoiseReductionKind::kMedian5x5;
+  const NoiseReduction median(config, 640, 480);
+  EXPECT_EQ(median.look_ahead_rows(), 2);
+  EXPECT_EQ(median.look_ahead_pixels(), 2);
+  EXPECT_EQ(median.storage_bits(), (4 * 640 + 25) * 12);
+  config.kind = NoiseReductionKind::kMedian3x3;
+  EXPECT_EQ(NoiseReduction(config, 640, 480).storage_bits(), (2 * 640 + 9) * 12);
 }
 
 TEST(NoiseReduction, SaysWhatIsWrongWithItsConfiguration) {
@@ -115,6 +149,17 @@ TEST(NoiseReduction, SaysWhatIsWrongWithItsConfiguration) {
   config = {};
   config.max_difference = 5000;
   EXPECT_EQ(complaint(config), "noise_reduction.max_difference = 5000: must be within 0..4094");
+  config = {};
+  config.kind = NoiseReductionKind::kMedian3x3;
+  EXPECT_EQ(complaint(config), "");
+  config.window = 5;
+  EXPECT_EQ(complaint(config),
+            "noise_reduction.window = 5: has no effect with noise_reduction.kind = \"median_3x3\"");
+  config = {};
+  config.kind = NoiseReductionKind::kMedian5x5;
+  config.max_difference = 16;
+  EXPECT_EQ(complaint(config),
+            "noise_reduction.max_difference = 16: has no effect with noise_reduction.kind = \"median_5x5\"");
 }
 
 }  // namespace noise_reduction_test

@@ -97,6 +97,7 @@ inline PipelineCase random_pipeline(Depths depths, std::uint64_t frames, int lar
   config.gap_interpolation.enabled = number(0, 1) != 0;
   config.gap_interpolation.l_max = number(0, 8);
   config.noise_reduction.enabled = number(0, 3) != 0;
+  if (number(0, 3) == 0) config.noise_reduction.kind = NoiseReductionKind::kMedian5x5;
   PipelineTiming& time = config.timing;
   for (StageTiming* timing : {&time.map_decoder, &time.rectification, &time.census, &time.matching,
                               &time.subpixel, &time.uniqueness, &time.consistency, &time.texture,
