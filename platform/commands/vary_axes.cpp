@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "platform/commands/value_range.hpp"
-#include "platform/config/nearest_name.hpp"
+#include "platform/config/nearest_key.hpp"
 #include "tlm/error.hpp"
 
 namespace parallax {
@@ -95,7 +95,7 @@ VaryAxis read_axis(const std::string& argument, const Schema& schema, const RunO
     for (const Key& known : schema.keys()) names.push_back(known.path);
     for (const VariedOption& option : varied_options()) names.emplace_back(option.name);
     throw UserError(fmt::format("{}unknown key {}; the nearest is {}", before, excerpt(axis.name),
-                                nearest_name(axis.name, names)));
+                                nearest_key(axis.name, names)));
   }
   if (axis.option != nullptr && axis.option->given(options)) {
     throw UserError(fmt::format("--vary {0} and --{0} exclude each other", axis.name));

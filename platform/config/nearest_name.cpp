@@ -5,10 +5,7 @@
 #include <numeric>
 
 namespace parallax {
-namespace {
 
-/// Optimal string alignment distance: Levenshtein plus swaps of two neighbours, the commonest slip of
-/// fingers.
 std::size_t edit_distance(const std::string& a, const std::string& b) {
   std::vector<std::size_t> before(b.size() + 1), above(b.size() + 1), row(b.size() + 1);
   std::iota(above.begin(), above.end(), std::size_t{0});
@@ -24,8 +21,6 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
   }
   return above[b.size()];
 }
-
-}  // namespace
 
 std::string nearest_name(const std::string& word, const std::vector<std::string>& names) {
   constexpr std::size_t kLongest = 200;  // beyond it nothing is near, and the distance takes its time

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <optional>
 
-#include "platform/config/nearest_name.hpp"
+#include "platform/config/nearest_key.hpp"
 #include "tlm/error.hpp"
 
 namespace parallax {
@@ -175,7 +175,7 @@ void Schema::apply(const std::string& path, const RawValue& raw) {
     std::vector<std::string> paths;
     for (const Key& k : keys_) paths.push_back(k.path);
     throw UserError(fmt::format("{}: unknown key {}; the nearest is {}", raw.origin, excerpt(path),
-                                nearest_name(path, paths)));
+                                nearest_key(path, paths)));
   }
   if (not_a_value) {
     throw UserError(
