@@ -10,6 +10,7 @@ namespace {
 
 /// Above every path cost, and no overflow when a penalty (at most 255) is added.
 constexpr std::int16_t kNever = 0x3FFF;
+constexpr int kNoColumn = -1;
 constexpr int kBitsOfEveryPathCost = 9;  // at most 510
 
 std::int16_t min16(std::int16_t a, std::int16_t b) { return a < b ? a : b; }
@@ -50,6 +51,7 @@ std::int16_t continue_path(const std::uint8_t* __restrict costs, int count,
 Path::Path(Direction direction, const MatchingConfig& config, int width)
     : direction_(direction),
       start_(config.path_start),
+      restart_column_(start_ == PathStart::kFirstColumn ? 0 : kNoColumn),
       count_(config.range().count),
       p1_(static_cast<std::int16_t>(config.p1)),
       p2_(static_cast<std::int16_t>(config.p2)),
@@ -72,7 +74,7 @@ int Path::predecessor(int x, int y) const {
   const int from_y = y - direction_.rows_up;
   const int here = y * width_ + x;
   const int there = from_y * width_ + from_x;
-  if (start_ == PathStart::kFirstColumn && x == 0) return -1;
+  if (x == restart_column_) return -1;
   if (from_x >= 0 && from_x < width_) return there;
   const bool horizontal = direction_.rows_up == 0;
   switch (start_) {
@@ -89,7 +91,7 @@ int Path::predecessor(int x, int y) const {
   return -1;
 }
 
-void Path::advance(int x, int y, const std::uint8_t* costs, Cost* sums) {
+inline void Path::step(int x, int y, const std::uint8_t* costs, Cost* sums) {
   const PathCosts here = slot(y * width_ + x);
   const int before = predecessor(x, y);
   if (before < 0) {
@@ -98,7 +100,17 @@ void Path::advance(int x, int y, const std::uint8_t* costs, Cost* sums) {
     const PathCosts from = slot(before);
     *here.minimum = continue_path(costs, count_, from.costs, *from.minimum, p1_, p2_, here.costs, sums);
   }
-  if (narrow_) narrow(here, sums);
+}
+
+// The narrow registers stand apart so that the whole ones cost no more for them.
+void Path::advance(int x, int y, const std::uint8_t* costs, Cost* sums) {
+  if (narrow_) return advance_narrow(x, y, costs, sums);
+  step(x, y, costs, sums);
+}
+
+void Path::advance_narrow(int x, int y, const std::uint8_t* costs, Cost* sums) {
+  step(x, y, costs, sums);
+  narrow(slot(y * width_ + x), sums);
 }
 
 // What does not fit comes back out of the sums, too.

@@ -39,11 +39,14 @@ class Path {
 
  private:
   PathCosts slot(int position);
+  void step(int x, int y, const std::uint8_t* costs, Cost* sums);
+  void advance_narrow(int x, int y, const std::uint8_t* costs, Cost* sums);
   void narrow(const PathCosts& here, Cost* sums) const;
   int predecessor(int x, int y) const;  ///< raster position, negative if there is none
 
   Direction direction_;
   PathStart start_;
+  int restart_column_;  ///< where all pixels start anew
   int count_;
   std::int16_t p1_;
   std::int16_t p2_;
