@@ -73,6 +73,17 @@ TEST_F(Vectors, AreWhatTheDefinitionOfTheStageSays) {
   }
 }
 
+TEST_F(Vectors, OfGreyValuesAreThePixels) {
+  const std::string machine = "--set census.enabled=false --set matching.cost=absolute_difference";
+  const json manifest = make("matching", "v", machine);
+  const json& codes = manifest.at("streams").at(0);
+  EXPECT_EQ(codes.at("name"), "left_codes");
+  EXPECT_EQ(codes.at("width"), 8);
+  EXPECT_EQ(codes.at("fields").at(0).at("name"), "grey");
+  make("census", "pixels", machine);
+  EXPECT_EQ(words("v/left_codes.memh"), words("pixels/left_rectified.memh"));
+}
+
 // A stream has the same words at both of its ends, and there is a stage at each.
 TEST_F(Vectors, OfEveryStageAgreeWithItsNeighbours) {
   const std::vector<std::string> machines{
