@@ -8,12 +8,18 @@ else()
   set(PARALLAX_RTL ON)
 endif()
 
-# parallax_verilated(LIBRARY CLASS TOP [TRACE] [JOINED] [PARAMETER=VALUE...]): adds module TOP of tests/rtl/TOP.sv to the static
-# library LIBRARY, as class CLASS in header CLASS.h. TRACE: it can dump its waves. JOINED: it is one unit and not optimised,
-# for circuits that compile for longer than they run; otherwise a hundred units would read the same large headers.
+# parallax_verilated(LIBRARY CLASS TOP [TRACE] [JOINED] [REFERENCE] [PARAMETER=VALUE...]): adds module TOP of tests/rtl/TOP.sv to
+# the static library LIBRARY, as class CLASS in header CLASS.h. TRACE: it can dump its waves. JOINED: it is one unit and not
+# optimised, for circuits that compile for longer than they run; otherwise a hundred units would read the same large headers.
+# REFERENCE: it is one of modules/rtl, which have ports and outputs of parts that not all of them use.
 function(parallax_verilated library class top)
   set(folder ${PROJECT_SOURCE_DIR}/tests/rtl)
-  cmake_parse_arguments(PARSE_ARGV 3 "" "TRACE;JOINED" "" "")
+  cmake_parse_arguments(PARSE_ARGV 3 "" "TRACE;JOINED;REFERENCE" "" "")
+  set(unused)
+  if(_REFERENCE)
+    set(folder ${PROJECT_SOURCE_DIR}/modules/rtl)
+    set(unused -Wno-UNUSED -Wno-PINCONNECTEMPTY)
+  endif()
   set(trace)
   if(_TRACE)
     set(trace TRACE)
@@ -27,7 +33,7 @@ function(parallax_verilated library class top)
     add_library(${library} STATIC EXCLUDE_FROM_ALL)
   endif()
   verilate(${library} SOURCES ${folder}/${top}.sv TOP_MODULE ${top} PREFIX ${class} INCLUDE_DIRS ${folder} ${trace}
-    VERILATOR_ARGS -Wall --no-timing --x-assign fast --x-initial fast ${_UNPARSED_ARGUMENTS} ${optimise})
+    VERILATOR_ARGS -Wall ${unused} --no-timing --x-assign fast --x-initial fast ${_UNPARSED_ARGUMENTS} ${optimise})
   if(_JOINED)
     get_target_property(sources ${library} SOURCES)
     list(FILTER sources INCLUDE REGEX "/${class}\\.dir/.*\\.cpp$")
