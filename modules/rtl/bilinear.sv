@@ -77,11 +77,11 @@ module bilinear #(
 
   // Both fractions, from register to register.
   wire [2*FRACTION_BITS-1:0] fractions_0 = {dy_0[FRACTION_BITS-1:0], dx_0[FRACTION_BITS-1:0]};
-  wire [2*FRACTION_BITS-1:0] fractions_4;
-  reg [FRACTION_BITS-1:0] fy_5;
-  wire [3:0] fraction_moves = moves[4:1];
-  pass_registers #(.BITS(2 * FRACTION_BITS), .STAGES(4)) fractions (
-    .clk(clk), .moves(fraction_moves), .in(fractions_0), .out(fractions_4));
+  wire [2*FRACTION_BITS-1:0] fractions_3;
+  reg [FRACTION_BITS-1:0] fx_4, fy_4, fy_5;
+  wire [2:0] fraction_moves = moves[3:1];
+  pass_registers #(.BITS(2 * FRACTION_BITS), .STAGES(3)) fractions (
+    .clk(clk), .moves(fraction_moves), .in(fractions_0), .out(fractions_3));
   // (S - f) * a + f * b
   function automatic [ROW_SUM-1:0] mixed(input [7:0] a, input [7:0] b, input [FRACTION_BITS-1:0] f);
     reg [ROW_SUM-1:0] of_a;
@@ -96,7 +96,11 @@ module bilinear #(
   reg [ROW_SUM-1:0] upper_5, lower_5;
   reg [SQUARE_SUM-1:0] sum_6;
   reg [7:0] pixel_7;
-  wire [FRACTION_BITS-1:0] fx_4 = fractions_4[FRACTION_BITS-1:0];
+  // A neighbour without weight may lie beyond the rows held.
+  wire is_left = fractions_3[FRACTION_BITS-1:0] == '0;
+  wire is_upper = fractions_3[FRACTION_BITS +: FRACTION_BITS] == '0;
+  wire [7:0] upper_other = is_left ? upper_left : upper_right;
+  wire [7:0] lower_other = is_left ? lower_left : lower_right;
   wire [SQUARE_SUM-1:0] weight_5 = SQUARE_SUM'(fy_5);
   wire [SQUARE_SUM:0] rounded = {1'b0, sum_6} + (SQUARE_SUM + 1)'(S * S / 2);
   always_ff @(posedge clk) begin
@@ -115,14 +119,16 @@ module bilinear #(
     end
     if (moves[4]) begin
       upper_left_4 <= upper_left;
-      upper_right_4 <= upper_right;
-      lower_left_4 <= lower_left;
-      lower_right_4 <= lower_right;
+      upper_right_4 <= upper_other;
+      lower_left_4 <= is_upper ? upper_left : lower_left;
+      lower_right_4 <= is_upper ? upper_other : lower_other;
+      fx_4 <= fractions_3[FRACTION_BITS-1:0];
+      fy_4 <= fractions_3[FRACTION_BITS +: FRACTION_BITS];
     end
     if (moves[5]) begin
       upper_5 <= mixed(upper_left_4, upper_right_4, fx_4);
       lower_5 <= mixed(lower_left_4, lower_right_4, fx_4);
-      fy_5 <= fractions_4[FRACTION_BITS +: FRACTION_BITS];
+      fy_5 <= fy_4;
     end
     if (moves[6]) sum_6 <= SQUARE_SUM'(upper_5) * (SQUARE_SUM'(S) - weight_5) + SQUARE_SUM'(lower_5) * weight_5;
     if (moves[7]) pixel_7 <= rounded[2*FRACTION_BITS +: 8];

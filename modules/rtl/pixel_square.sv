@@ -50,8 +50,7 @@ module pixel_square #(
   genvar i;
   generate
     for (i = 0; i < 4; i = i + 1) begin : bank
-      (* ram_style = "block" *) reg [7:0] pixels [0:ROWS*COLUMNS-1];
-      initial for (int k = 0; k < ROWS * COLUMNS; k = k + 1) pixels[k] = 8'd0;
+      reg [7:0] pixels [0:ROWS*COLUMNS-1];
       wire [15:0] column_here = i % 2 == 0 ? even_column : odd_column;
       wire [15:0] slot_here = i / 2 == 0 ? even_slot : odd_slot;
       wire [ROW_BITS-1:0] row_here = slot_here[ROW_BITS:1];

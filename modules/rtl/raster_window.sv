@@ -19,8 +19,8 @@ module raster_window #(
   localparam int KEPT = (ROWS - 1) * BITS;
   localparam int COLUMN = ROWS * BITS;
   localparam int AT_BITS = $clog2(WIDTH);
-  (* ram_style = "block" *) reg [KEPT-1:0] lines [0:WIDTH-1];  // rows above, the nearest one lowest
-  reg [KEPT-1:0] above;                                        // out of the memory, for the next firing
+  reg [KEPT-1:0] lines [0:WIDTH-1];  // rows above, the nearest one lowest
+  reg [KEPT-1:0] above;                 // out of the memory, for the next firing
   reg [AT_BITS-1:0] at = '0;
   wire [AT_BITS-1:0] next = at == AT_BITS'(WIDTH - 1) ? '0 : at + 1'b1;
   reg [COLUMN*(COLUMNS-1)-1:0] held;

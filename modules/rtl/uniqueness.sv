@@ -47,7 +47,7 @@ module uniqueness #(
   assign in_costs_ready = may_fire && (!last_group || in_disparity_valid);
   assign in_disparity_ready = may_fire && last_group && in_costs_valid;
 
-  localparam [COST_BITS-1:0] NONE = '1;  // no cost is higher
+  localparam [COST_BITS-1:0] NONE = {COST_BITS{1'b1}};  // no cost is higher
   function automatic [COST_BITS-1:0] lower(input [COST_BITS-1:0] a, input [COST_BITS-1:0] b);
     begin
       lower = b < a ? b : a;
