@@ -138,9 +138,13 @@ TEST(ReferenceValuesRtl, Uniqueness) {
       in_icarus({"uniqueness", "--size 32x16 -d 32", ".WIDTH(32), .HEIGHT(16), .P(32), .ITERATIONS(1)"}), "");
 }
 
+// Offsets that leave the image at the bottom, and at both sides.
 TEST(ReferenceValuesRtl, Rectification) {
-  EXPECT_EQ(in_icarus({"rectification", "--size 64x32 -d 32 --frames 2 -s rectification.window=9",
-                       ".WIDTH(64), .HEIGHT(32), .WINDOW(9), .OFFSET_BITS(9)"}),
+  EXPECT_EQ(in_icarus({"rectification", "--size 32x16 -d 32 --frames 2 -s rectification.window=9",
+                       ".WIDTH(32), .HEIGHT(16), .WINDOW(9), .OFFSET_BITS(9)"}),
+            "");
+  EXPECT_EQ(in_icarus({"rectification", "--size 32x48 -d 32 -s rectification.window=15",
+                       ".WIDTH(32), .HEIGHT(48), .WINDOW(15), .OFFSET_BITS(9)"}),
             "");
   EXPECT_EQ(
       in_icarus({"rectification",
@@ -152,12 +156,12 @@ TEST(ReferenceValuesRtl, Rectification) {
 
 TEST(ReferenceValuesRtl, NoiseReduction) {
   EXPECT_EQ(in_icarus({"noise_reduction", kSmall, ".WIDTH(64), .HEIGHT(32)"}), "");
-  EXPECT_EQ(
-      in_icarus({"noise_reduction",
-                 "--size 32x32 -d 32 -s noise_reduction.window=5 -s noise_reduction.max_difference=7 -s "
-                 "noise_reduction.latency=7",
-                 ".WIDTH(32), .HEIGHT(32), .WINDOW(5), .MAX_DIFFERENCE(7), .LATENCY(7)"}),
-      "");
+  EXPECT_EQ(in_icarus({"noise_reduction",
+                       "--size 32x32 -d 32 -s subpixel.mask_border=false -s noise_reduction.window=5 -s "
+                       "noise_reduction.max_difference=7 -s "
+                       "noise_reduction.latency=7",
+                       ".WIDTH(32), .HEIGHT(32), .WINDOW(5), .MAX_DIFFERENCE(7), .LATENCY(7)"}),
+            "");
   EXPECT_EQ(
       in_icarus({"noise_reduction",
                  "--size 32x16 -d 32 -s noise_reduction.window=7 -s noise_reduction.max_difference=4094",

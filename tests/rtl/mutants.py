@@ -5,18 +5,23 @@ import collections
 
 Mutant = collections.namedtuple("Mutant", "circuit file old new pattern place equivalent")
 
-# circuit: options of parallax vectors, parameters
+# circuit: for each set of vectors the options of parallax vectors, and the parameters. What one does not meet, another does: costs that
+# are equal, offsets that leave the image, disparities at its border.
 TWELVE = "-s matching.parallelism=4 -s matching.iterations=3"
+SIZE = ".WIDTH(32), .HEIGHT(16)"
 BENCHES = {
-    "census": ("--size 32x16 -d 32 --frames 2", ".WIDTH(32), .HEIGHT(16)"),
-    "matching": (f"--size 32x16 --frames 2 {TWELVE}", ".WIDTH(32), .HEIGHT(16), .P(4), .ITERATIONS(3)"),
-    "subpixel": (f"--size 32x16 --frames 2 {TWELVE}", ".WIDTH(32), .HEIGHT(16), .P(4), .ITERATIONS(3)"),
-    "uniqueness": (f"--size 32x16 --frames 2 {TWELVE}", ".WIDTH(32), .HEIGHT(16), .P(4), .ITERATIONS(3)"),
-    "rectification": (
-        "--size 32x16 -d 32 --frames 2 -s rectification.window=9",
-        ".WIDTH(32), .HEIGHT(16), .WINDOW(9), .OFFSET_BITS(9)",
-    ),
-    "noise_reduction": ("--size 32x16 -d 32 --frames 2", ".WIDTH(32), .HEIGHT(16)"),
+    "census": [("--size 32x16 -d 32 --frames 2", SIZE)],
+    "matching": [(f"--size 32x16 --frames 2 {TWELVE}", f"{SIZE}, .P(4), .ITERATIONS(3)")],
+    "subpixel": [(f"--size 32x16 --frames 2 {TWELVE}", f"{SIZE}, .P(4), .ITERATIONS(3)")],
+    "uniqueness": [
+        (f"--size 32x16 --frames 2 {TWELVE}", f"{SIZE}, .P(4), .ITERATIONS(3)"),
+        (f"--size 32x16 {TWELVE} -s uniqueness.factor=256", f"{SIZE}, .P(4), .ITERATIONS(3), .FACTOR(256)"),
+    ],
+    "rectification": [
+        ("--size 32x16 -d 32 --frames 2 -s rectification.window=9", f"{SIZE}, .WINDOW(9), .OFFSET_BITS(9)"),
+        ("--size 32x48 -d 32 -s rectification.window=15", ".WIDTH(32), .HEIGHT(48), .WINDOW(15), .OFFSET_BITS(9)"),
+    ],
+    "noise_reduction": [("--size 32x16 -d 32 --frames 2 -s subpixel.mask_border=false", SIZE)],
 }
 
 # Kinds of mistakes, and the patterns that are right for each.
@@ -205,7 +210,6 @@ NOISE_REDUCTION = [
     ("noise_reduction.sv", "difference <= 12'(MAX_DIFFERENCE)", "difference < 12'(MAX_DIFFERENCE)", VALUES),
     ("noise_reduction.sv", "difference <= 12'(MAX_DIFFERENCE)", "difference >= 12'(MAX_DIFFERENCE)", VALUES),
     ("noise_reduction.sv", "exists && value != INVALID", "value != INVALID", BORDER, {"row": 0}),
-    ("noise_reduction.sv", "value != INVALID &&", "", VALUES),
     ("noise_reduction.sv", "centre_0 - value : value - centre_0", "value - centre_0 : value - centre_0", VALUES),
     ("noise_reduction.sv", "(PLACES/2)*12 +: 12", "(PLACES/2 - 1)*12 +: 12", ROW, {"row": 0}),
     ("noise_reduction.sv", "columns_0[i / WINDOW] && rows_0", "columns_0[i % WINDOW] && rows_0", BORDER | VALUES),
@@ -224,6 +228,7 @@ EQUIVALENT = [
     ("matching", "path_unit.sv", "WIDE'(same) < jump", "WIDE'(same) <= jump", "equal values, whichever is taken"),
     ("matching", "lowest_of.sv", "takes_b = b < a", "takes_b = b <= a", "the index of the lowest cost is not used"),
     ("subpixel", "subpixel.sv", "up_0 = below_0 > above_0", "up_0 = below_0 >= above_0", "between equal costs the fraction is 0"),
+    ("noise_reduction", "noise_reduction.sv", "value != INVALID &&", "", "no disparity of a range of 32 is within 24 of the invalid one"),
     ("noise_reduction", "noise_reduction.sv", "value < centre_0 ?", "value <= centre_0 ?", "the difference of equal values is 0"),
 ]
 

@@ -34,9 +34,9 @@ def run(command, folder):
 class Bench:
     """The vectors of a circuit, and what runs it."""
 
-    def __init__(self, program, circuit, folder):
-        self.program, self.circuit, self.folder = program, circuit, os.path.join(folder, circuit)
-        options, self.parameters = BENCHES[circuit]
+    def __init__(self, program, circuit, number, folder):
+        self.program, self.circuit, self.folder = program, circuit, os.path.join(folder, f"{circuit}_{number}")
+        options, self.parameters = BENCHES[circuit][number]
         code, said = run([program, "vectors", "--stage", circuit, *options.split(), "--out", self.folder, "-q"], folder)
         if code != 0:
             sys.exit(f"vectors of {circuit}: {said}")
@@ -90,7 +90,7 @@ def main():
     parser.add_argument("program")
     parser.add_argument("--of", type=int, default=1)
     parser.add_argument("circuits", nargs="*", default=[])
-    options = parser.parse_args()
+    options = parser.parse_intermixed_args()
     program = os.path.abspath(options.program)
     chosen = [m for m in MUTANTS if not options.circuits or m.circuit in options.circuits][:: options.of]
     counts = collections.Counter()
@@ -99,11 +99,15 @@ def main():
         benches = {}
         for mutant in chosen:
             if mutant.circuit not in benches:
-                benches[mutant.circuit] = Bench(program, mutant.circuit, folder)
-                if not benches[mutant.circuit].passes(benches[mutant.circuit].sources)[0]:
-                    sys.exit(f"{mutant.circuit}: the test bench does not pass without a change")
-            bench = benches[mutant.circuit]
-            passed, said = bench.passes(mutated(bench.sources, mutant))
+                numbers = range(len(BENCHES[mutant.circuit]))
+                benches[mutant.circuit] = [Bench(program, mutant.circuit, number, folder) for number in numbers]
+                for bench in benches[mutant.circuit]:
+                    if not bench.passes(bench.sources)[0]:
+                        sys.exit(f"{mutant.circuit}: the test bench does not pass without a change")
+            for bench in benches[mutant.circuit]:
+                passed, said = bench.passes(mutated(bench.sources, mutant))
+                if not passed:
+                    break
             what = f"{mutant.circuit}: {mutant.file}: {mutant.old.strip()} -> {mutant.new.strip()}"
             if passed is None:
                 sys.exit(f"{what}: does not compile\n{said}")
