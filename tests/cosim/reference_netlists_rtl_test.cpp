@@ -60,7 +60,8 @@ TEST(ReferenceNetlistsRtl, BrokenCircuitsAreFound) {
   const Ended found = shell(program, fmt::format("{} '{}' --of 13 subpixel uniqueness noise_reduction",
                                                  script("mutate.py"), program_path()));
   EXPECT_EQ(found.code, 0) << found.text;
-  EXPECT_NE(found.text.find("mutants              5\nfound                5\n"), std::string::npos) << found.text;
+  EXPECT_NE(found.text.find("mutants              5\nfound                5\n"), std::string::npos)
+      << found.text;
 }
 
 }  // namespace reference_netlists_rtl_test
