@@ -57,7 +57,7 @@ class Tap final : private StreamListener, private RowListener<T> {
   using Take = std::function<void(const TappedToken<T>& token)>;
 
   Tap(Stream<T>& stream, const TapConfig& config, Take take)
-      : stream_(stream), config_(config), take_(std::move(take)), in_run_(config.runs) {
+      : stream_(stream), config_(config), take_(std::move(take)), in_run_(config_.runs) {
     stream_.add_listener(*this);
     stream_.add_row_listener(*this);
   }

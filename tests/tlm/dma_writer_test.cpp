@@ -85,7 +85,7 @@ TEST(DmaWriter, TakesBytesAfterTheirDateWhereItIsTold) {
       Values expected(4096);
       std::copy(values.begin(), values.end(), expected.begin() + 64);
       std::string found = b.memory.bytes == expected ? "" : "values\n";
-      for (const Cycles date : b.dates.read) found += std::to_string(date.count()) + " ";
+      for (const auto date : b.dates.read) found += std::to_string(date) + " ";
       return found;
     });
   };
