@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A circuit that Verilator has made C++ of, as parallax_get_circuit(). Included by a file that Parallax writes for each one,
-// behind circuit.h: PARALLAX_TOP is its class, PARALLAX_NAME its module, PARALLAX_PINS(TOP) its pins.
+// A circuit that Verilator has made C++ of, as parallax_get_circuit(). Included by a file that Parallax
+// writes for each one, behind circuit.h: PARALLAX_TOP is its class, PARALLAX_NAME its module,
+// PARALLAX_PINS(TOP) its pins.
 #include <verilated.h>
 
 namespace {
@@ -36,8 +37,8 @@ const parallax_circuit kCircuit{
 
 }  // namespace
 
-// The process belongs to the program that has loaded the circuit, which ends by itself: $finish, $stop and fatal errors of the
-// circuit are told by finished().
+// The process belongs to the program that has loaded the circuit, which ends by itself: $finish, $stop and
+// fatal errors of the circuit are told by finished().
 void vl_finish(const char*, int, const char*) { Verilated::threadContextp()->gotFinish(true); }
 void vl_stop(const char* file, int line, const char*) {
   VL_PRINTF("%s:%d: $stop\n", file, line);
@@ -48,4 +49,6 @@ void vl_fatal(const char* file, int line, const char*, const char* message) {
   Verilated::threadContextp()->gotFinish(true);
 }
 
-extern "C" __attribute__((visibility("default"))) const parallax_circuit* parallax_get_circuit() { return &kCircuit; }
+extern "C" __attribute__((visibility("default"))) const parallax_circuit* parallax_get_circuit() {
+  return &kCircuit;
+}
