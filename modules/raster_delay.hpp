@@ -22,7 +22,7 @@ class RasterDelay {
   void end() { values_.insert(values_.end(), static_cast<std::size_t>(reach_), T{0}); }
 
   /// Whether all that row() reaches has come.
-  bool complete() const { return values_.size() >= static_cast<std::size_t>(2 * reach_ + width_); }
+  bool complete() const { return values_.size() >= 2 * static_cast<std::size_t>(reach_) + width_; }
   /// First value of the oldest row; -reach .. width + reach - 1 may be read.
   const T* row() const { return values_.data() + reach_; }
   void pop() { values_.erase(values_.begin(), values_.begin() + width_); }

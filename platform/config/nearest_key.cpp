@@ -123,7 +123,7 @@ std::string section_like(const std::string& wanted, const Words& keys) {
   std::string best;
   double most = kLikeSection;
   for (const std::string& key : keys) {
-    const std::string section = split(key).first;
+    std::string section = split(key).first;
     if (section == wanted) return section;
     const double like = wanted.empty() || section.empty() ? 0 : likeness(words_of(wanted), words_of(section));
     if (like > most) {

@@ -92,7 +92,7 @@ std::string run_tool(const Words& words, const fs::path& folder, const char* pac
   if (failed != 0) throw UserError(fmt::format("cannot run {}: {}", words[0], std::strerror(failed)));
   int status = 0;
   while (::waitpid(process, &status, 0) < 0 && errno == EINTR) continue;
-  const std::string said = content(log);
+  std::string said = content(log);
   if (status != 0)
     throw UserError(fmt::format("{}: {}", words[0], excerpt(complaint(said, error_word), 600)));
   return said;

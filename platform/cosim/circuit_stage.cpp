@@ -200,7 +200,7 @@ void CircuitStage::wait_for_dates() {
     }
   }
   if (std::exchange(timer_runs_, true)) return;
-  const sc_core::sc_time now = sc_core::sc_time_stamp();
+  const sc_core::sc_time& now = sc_core::sc_time_stamp();
   const sc_core::sc_time edge = clock_.time_of(cycle_);
   // After a token has passed, in this date's next delta cycle, when the engine has come to rest; else when
   // the edge is over.

@@ -90,10 +90,10 @@ class FifoLookup {
                                    bool needed) const {
     const bool other_asked = other != nullptr && !(signals_.*role(other).signal).empty();
     if (!other_asked) {
-      if (const auto found = of(one, active)) return found;
+      if (auto found = of(one, active)) return found;
     }
     if (other != nullptr) {
-      if (const auto found = of(other, other_active)) return found;
+      if (auto found = of(other, other_active)) return found;
     }
     if (needed) throw missing(role(one).usual.front(), one);
     return std::nullopt;
