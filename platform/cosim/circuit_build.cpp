@@ -176,6 +176,8 @@ void build_circuit(const std::vector<fs::path>& sources, const CircuitOptions& o
   BuildFolder folder;
   Words words{"verilator", "--cc",        "--no-timing", "-Wno-fatal", "--x-assign",
               "unique",    "--x-initial", "unique",      "--Mdir",     folder.path().string()};
+  // Delay lines are often arrays that loops shift: Verilator unrolls those of 64 steps.
+  words.insert(words.end(), {"--unroll-count", "8192", "--unroll-stmts", "100000"});
   if (!options.top.empty()) words.insert(words.end(), {"--top-module", options.top});
   for (const std::string& parameter : options.parameters) {
     const std::size_t equals = parameter.find('=');

@@ -302,7 +302,7 @@ bool CircuitStage::put(Output& output, bool stands) {
   if (!output.valid) return false;
   if (!output.ready || stands) {
     output.blocked += Cycles(1);
-    output.held = output.pins.ready != nullptr;
+    output.held = output.pins.ready != nullptr && !output.ready;
     return false;
   }
   output.held = false;
@@ -366,15 +366,14 @@ void CircuitStage::watch(Output& out) {
   if (out.held && !out.valid) {
     breach_ = fmt::format("{}: valid goes from 1 to 0 before token {} was taken, in cycle {}", out.model.name,
                           out.tokens, cycle_.count());
-    return;
   }
-  if (!out.valid) return;
+  if (!out.valid || (!out.held && out.ready)) return;
   read_pin(*out.pins.data[0].pin, out.bits);
   if (out.held && out.bits != out.before) {
     breach_ = fmt::format("{}: the data change before token {} was taken, in cycle {}", out.model.name,
                           out.tokens, cycle_.count());
   }
-  out.before = out.bits;
+  out.before.swap(out.bits);
 }
 
 void CircuitStage::edge() {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <optional>
 #include <string>
 
@@ -11,6 +12,8 @@ namespace parallax {
 namespace {
 
 constexpr std::uint64_t kLeastBetween = 16;  // tokens that agree between two that are lost
+constexpr int kWidestReach = 16;             // px; of a window of 33 x 33
+constexpr std::int64_t kFarthest = 4;        // px that it is looked for
 
 std::string place_text(const TokenComparison& comparison, std::uint64_t token) {
   const ValuePlace place = comparison.manifest->place(*comparison.stream, token, 0);
@@ -32,6 +35,7 @@ class ShiftSearch {
     find_lost();
     if (found_.empty()) find_delay();
     if (found_.empty()) find_lost_here_and_there();
+    if (found_.empty()) find_moved_inside();
     return found_;
   }
 
@@ -164,6 +168,68 @@ class ShiftSearch {
       if (!matches(i)) return false;
     }
     return true;
+  }
+
+  // A window that is not where it should be: at the border of the image it sees something else, inside it is
+  // the model's of another place.
+  void find_moved_inside() {
+    const VectorManifest& manifest = *comparison_.manifest;
+    if (shape_.row_tokens == 0 || shape_.pixels_per_token > 1 || rim(manifest.tile_width) < kFarthest ||
+        rim(manifest.height) < kFarthest)
+      return;
+    for (std::int64_t distance = 1; distance <= kFarthest; ++distance) {
+      for (std::int64_t rows = -distance; rows <= distance; ++rows) {
+        const std::int64_t rest = distance - std::abs(rows);
+        for (const std::int64_t columns : {rest, -rest}) {
+          if (moved_inside(columns, rows)) return add_moved(columns, rows);
+        }
+      }
+    }
+  }
+
+  void add_moved(std::int64_t columns, std::int64_t rows) {
+    const auto text = [](std::int64_t number, const char* what) {
+      return number == 0 ? std::string()
+                         : fmt::format("{} {}{} {}", std::abs(number), what, std::abs(number) == 1 ? "" : "s",
+                                       number > 0 ? "late" : "early");
+    };
+    const std::string in_row = text(columns, "column");
+    const std::string down = text(rows, "row");
+    const std::string both = in_row + (in_row.empty() || down.empty() ? "" : " and ") + down;
+    const bool one = std::abs(columns) + std::abs(rows) == 1;
+    add(one ? fmt::format("one_{}_{}", columns != 0 ? "column" : "row", columns + rows > 0 ? "late" : "early")
+            : "moved",
+        both + ", but for the rim");
+  }
+
+  // Whether every token inside is the model's of so many columns and rows before.
+  bool moved_inside(std::int64_t columns, std::int64_t rows) const {
+    const auto back = columns * static_cast<std::int64_t>(shape_.tokens_per_pixel) +
+                      rows * static_cast<std::int64_t>(shape_.row_tokens);
+    std::size_t explained = 0;
+    for (const std::uint64_t i : differing_) {
+      if (!inside(i)) continue;
+      if (!got_.same(i, expected_, i - static_cast<std::uint64_t>(back))) return false;
+      ++explained;
+    }
+    if (explained < kLeastExplained) return false;
+    for (std::uint64_t i = 0; i < comparison_.compared_tokens; ++i) {
+      if (inside(i) && !got_.same(i, expected_, i - static_cast<std::uint64_t>(back))) return false;
+    }
+    return true;
+  }
+
+  // Columns or rows at the border that a window may see.
+  static int rim(int size) { return std::min(kWidestReach, size / 4); }
+
+  bool inside(std::uint64_t token) const {
+    const VectorManifest& manifest = *comparison_.manifest;
+    const ValuePlace place = manifest.place(*comparison_.stream, token, 0);
+    const std::int64_t x = place.column - manifest.tile_begins[static_cast<std::size_t>(place.tile)];
+    const int columns = rim(manifest.tile_width);
+    const int rows = rim(manifest.height);
+    return x >= columns && x < manifest.tile_width - columns && place.row >= rows &&
+           place.row < manifest.height - rows;
   }
 
   const TokenComparison& comparison_;

@@ -80,6 +80,8 @@ INSTANTIATE_TEST_SUITE_P(
     All, CircuitFault,
     ::testing::Values(
         Fault{"FAULT_BORDER", "pattern             only the rim differs, 2 px wide\n"},
+        Fault{"FAULT_CHANGED",
+              "handshake           left_codes: the data change before token 639 was taken, in "},
         Fault{"FAULT_HANGS", "since cycle 111025: left_rectified has no token (token 1200 of frame 0"},
         Fault{"FAULT_LOST", "pattern             token 640 (frame 0, row 10, column 0) is lost"},
         Fault{

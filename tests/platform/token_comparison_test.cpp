@@ -252,6 +252,19 @@ TEST_F(AlteredDump, TokensLostDoubledOrLate) {
   for (std::size_t i = 0; i < in_rows.size(); ++i) in_rows[i] = i % 40 == 0 ? words_[3] : words_[i - 1];
   EXPECT_EQ(first_pattern(in_rows), "one_column_late");
 
+  // A window that is moved sees something else at the border of the image.
+  const auto moved = [&](std::size_t columns, std::size_t rows) {
+    Words out = words_;
+    for (std::size_t y = 2; y < 28; ++y) {
+      for (std::size_t x = 2; x < 38; ++x) out[y * 40 + x] = words_[(y - rows) * 40 + x - columns];
+    }
+    return out;
+  };
+  EXPECT_EQ(first_pattern(moved(1, 0)), "one_column_late");
+  EXPECT_EQ(first_pattern(moved(0, 1)), "one_row_late");
+  EXPECT_EQ(first_pattern(moved(2, 1)), "moved");
+  EXPECT_EQ(compare(moved(2, 1)).patterns.front().text, "2 columns late and 1 row late, but for the rim");
+
   Words lost = words_;
   lost.erase(lost.begin() + 500);
   EXPECT_EQ(first_pattern(lost), "token_lost");

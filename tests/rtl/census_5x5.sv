@@ -105,6 +105,9 @@ module census_5x5 #(
           written <= written + 1;
         end
       end
+`ifdef FAULT_CHANGED
+      else if (written == 640 && out_left_valid && !out_left_ready) out_left_data <= ~out_left_data;
+`endif
 `ifdef FAULT_WITHDRAWN
       else if (written == 640) out_left_valid <= 1'b0;
 `endif
