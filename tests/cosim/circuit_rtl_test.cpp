@@ -7,6 +7,7 @@
 
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <ostream>
 #include <string>
 
 #include "tests/cli/program.hpp"
@@ -67,6 +68,8 @@ struct Fault {
   const char* said;  // by the run, of what differs
 };
 
+void PrintTo(const Fault& fault, std::ostream* out) { *out << fault.name; }
+
 class CircuitFault : public ::testing::TestWithParam<Fault> {};
 
 TEST_P(CircuitFault, IsFoundAndNamed) {
@@ -95,6 +98,8 @@ struct Refused {
   const char* arguments;
   const char* message;
 };
+
+void PrintTo(const Refused& refused, std::ostream* out) { *out << refused.name; }
 
 class CircuitRefused : public ::testing::TestWithParam<Refused> {};
 
