@@ -37,7 +37,8 @@ void refuse_empty_values(CLI::App& app) {
   const CLI::Validator not_empty(
       [](const std::string& value) { return std::string(value.empty() ? "the value is empty" : ""); }, "");
   for (CLI::Option* option : app.get_options()) {
-    if (option->get_items_expected_max() > 0) option->check(not_empty);
+    // Before an option's own checks, which would call it a number out of range.
+    if (option->get_items_expected_max() > 0) option->transform(not_empty);
   }
   // All of them, groups of options too.
   for (CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))

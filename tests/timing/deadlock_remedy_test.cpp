@@ -197,7 +197,8 @@ RC_GTEST_PROP(DeadlockRemedy, AutomaticDepthsNeedNone, ()) {
   const int height = number(1, 100);
   config.census.window_height = 2 * number(0, (64 / config.census.window_width - 1) / 2) + 1;
   config.texture.window = 2 * number(1, 7) + 1;
-  config.noise_reduction.window = 2 * number(1, 3) + 1;
+  const int noise_window = 2 * number(1, 3) + 1;
+  if (config.noise_reduction.kind == NoiseReductionKind::kMean) config.noise_reduction.window = noise_window;
   config.gap_interpolation.l_max = number(0, 20);
   config.matching.parallelism = number(1, 32);
   config.matching.iterations = number(1, 8);
