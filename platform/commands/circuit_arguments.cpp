@@ -2,6 +2,9 @@
 #include "platform/commands/circuit_arguments.hpp"
 
 #include <CLI/CLI.hpp>
+#include <functional>
+#include <memory>
+#include <string>
 
 namespace parallax {
 namespace {
@@ -11,88 +14,114 @@ constexpr const char* kGroup = "Circuit";
 const CLI::Range kCount(std::uint64_t{0}, std::uint64_t{1} << 40);
 const CLI::Range kPositive(std::uint64_t{1}, std::uint64_t{1} << 40);
 
-}  // namespace
+/// Options of the circuit that is being described.
+class CircuitOptionAdder {
+ public:
+  CircuitOptionAdder(CLI::App& command, std::function<CircuitOptions&()> circuit)
+      : command_(command), circuit_(std::move(circuit)) {}
 
-void add_circuit_build_options(CLI::App& command, CircuitOptions& options) {
-  command.add_option("--circuit-top", options.top, "Top module of the Verilog, if it has several")
-      ->type_name("NAME")
-      ->group(kGroup);
-  command.add_option("--circuit-parameter", options.parameters, "A parameter of the top module. Repeated")
-      ->type_name("NAME=VALUE")
-      ->allow_extra_args(false)
-      ->take_all()
-      ->group(kGroup);
+  /// `set` is called wherever the option stands, in the order of the line.
+  template <class T, class Set>
+  CLI::Option& add(const char* name, const char* type, const Set& set, const char* help) const {
+    return *command_
+                .add_option_function<T>(
+                    name, [circuit = circuit_, set](const T& value) { set(circuit(), value); }, help)
+                ->type_name(type)
+                ->trigger_on_parse()
+                ->group(kGroup);
+  }
+
+ private:
+  CLI::App& command_;
+  std::function<CircuitOptions&()> circuit_;
+};
+
+void add_build_options(const CircuitOptionAdder& options, const std::function<void(CLI::Option&)>& also) {
+  also(options.add<std::string>(
+      "--circuit-top", "NAME", [](CircuitOptions& of, const std::string& top) { of.top = top; },
+      "Top module of the Verilog, if it has several"));
+  also(options.add<std::string>(
+      "--circuit-parameter", "NAME=VALUE",
+      [](CircuitOptions& of, const std::string& one) { of.parameters.push_back(one); },
+      "A parameter of the top module. Repeated"));
 }
 
-void add_circuit_options(CLI::App& command, CircuitOptions& options) {
+}  // namespace
+
+void add_circuit_build_options(CLI::App& command, CircuitOptions& circuit) {
+  add_build_options({command, [&circuit]() -> CircuitOptions& { return circuit; }}, [](CLI::Option&) {});
+}
+
+void add_circuit_options(CLI::App& command, std::vector<CircuitOptions>& circuits, bool& shadow) {
+  // What stands before the first circuit is of all of them.
+  const auto common = std::make_shared<CircuitOptions>();
+  CLI::Option* const first =
+      command
+          .add_option_function<std::string>(
+              "--circuit",
+              [common, &circuits](const std::string& circuit) {
+                circuits.push_back(*common);
+                circuits.back().circuit = circuit;
+              },
+              "A circuit in the place of a stage, beside what the model's stage does: Verilog, or a "
+              "library of parallax circuit. Repeated, for several stages: the options below are of the "
+              "circuit before them, or of all if they stand before the first")
+          ->type_name("STAGE=FILE,...")
+          ->trigger_on_parse()
+          ->group(kGroup);
+  const auto needs_it = [first](CLI::Option& option) { option.needs(first); };
+  const CircuitOptionAdder options(command, [common, &circuits]() -> CircuitOptions& {
+    return circuits.empty() ? *common : circuits.back();
+  });
+  const auto add_number = [&](const char* name, const auto& set, const CLI::Validator& range,
+                              const char* fallback, const char* help) {
+    CLI::Option& option = options.add<std::uint64_t>(name, "NUMBER", set, help);
+    option.check(range)->default_str(fallback);
+    needs_it(option);
+  };
+  add_build_options(options, needs_it);
+  needs_it(options.add<std::string>(
+      "--circuit-pins", "ROLE=PIN",
+      [](CircuitOptions& of, const std::string& pin) { of.pins.push_back(pin); },
+      "Which pin is what, where names do not tell: clock=clk_i, in_left.data=pixel, out_left.valid=strobe. "
+      "Repeated"));
+  needs_it(options.add<std::string>(
+      "--circuit-set", "PIN=VALUE",
+      [](CircuitOptions& of, const std::string& pin) { of.constants.push_back(pin); },
+      "An input that stays as it is, such as a mode. Repeated"));
+  add_number(
+      "--circuit-interval", [](CircuitOptions& of, std::uint64_t cycles) { of.interval = cycles; }, kPositive,
+      "1", "Least cycles from one token to the next at an input");
+  add_number(
+      "--circuit-latency", [](CircuitOptions& of, std::uint64_t edges) { of.latency = edges; }, kCount, "0",
+      "Clock edges from a token to its result, of a circuit without valid at its outputs");
+  add_number(
+      "--circuit-flush", [](CircuitOptions& of, std::uint64_t tokens) { of.flush = tokens; }, kCount, "",
+      "Tokens of zeros that it gets behind each frame, to push out what is in it; as many as "
+      "--circuit-latency if not given");
+  add_number(
+      "--circuit-skip", [](CircuitOptions& of, std::uint64_t tokens) { of.skip = tokens; }, kCount, "0",
+      "Tokens that come out before the first one of a frame and count for nothing");
+  add_number(
+      "--circuit-stall", [](CircuitOptions& of, std::uint64_t share) { of.stall = share; },
+      CLI::Range(0, 999), "0", "Of 1000 cycles, those in which each side is stalled at random");
+  add_number(
+      "--circuit-seed", [](CircuitOptions& of, std::uint64_t seed) { of.seed = seed; }, kCount, "1",
+      "Of the stalls, and of registers without an initial value");
+  add_number(
+      "--circuit-timeout", [](CircuitOptions& of, std::uint64_t cycles) { of.timeout = cycles; }, kPositive,
+      "",
+      "Cycles without a token, while one is due, after which it is given up; 100000 if not given, or four "
+      "for "
+      "each token of a frame");
+  needs_it(options.add<std::int64_t>(
+      "--circuit-bound", "NUMBER", [](CircuitOptions& of, std::int64_t cycles) { of.bound = cycles; },
+      "Most cycles by which a token may leave later than from the model's stage; more is a failure"));
   command
-      .add_option("--circuit", options.circuit,
-                  "A circuit in the place of a stage, beside what the model's stage does: Verilog, or a "
-                  "library of parallax circuit")
-      ->type_name("STAGE=FILE,...")
-      ->group(kGroup);
-  add_circuit_build_options(command, options);
-  command
-      .add_option("--circuit-pins", options.pins,
-                  "Which pin is what, where names do not tell: clock=clk_i, in_left.data=pixel, "
-                  "out_left.valid=strobe. Repeated")
-      ->type_name("ROLE=PIN")
-      ->allow_extra_args(false)
-      ->take_all()
-      ->group(kGroup);
-  command
-      .add_option("--circuit-set", options.constants,
-                  "An input that stays as it is, such as a mode. Repeated")
-      ->type_name("PIN=VALUE")
-      ->allow_extra_args(false)
-      ->take_all()
-      ->group(kGroup);
-  command
-      .add_option("--circuit-interval", options.interval,
-                  "Least cycles from one token to the next at an input")
-      ->check(kPositive)
-      ->capture_default_str()
-      ->group(kGroup);
-  command
-      .add_option("--circuit-latency", options.latency,
-                  "Clock edges from a token to its result, of a circuit without valid at its outputs")
-      ->check(kCount)
-      ->capture_default_str()
-      ->group(kGroup);
-  command
-      .add_option("--circuit-flush", options.flush,
-                  "Tokens of zeros that it gets behind each frame, to push out what is in it; as many as "
-                  "--circuit-latency if not given")
-      ->check(kCount)
-      ->group(kGroup);
-  command
-      .add_option("--circuit-skip", options.skip,
-                  "Tokens that come out before the first one of a frame and count for nothing")
-      ->check(kCount)
-      ->capture_default_str()
-      ->group(kGroup);
-  command
-      .add_option("--circuit-stall", options.stall,
-                  "Of 1000 cycles, those in which each side is stalled at random")
-      ->check(CLI::Range(0, 999))
-      ->capture_default_str()
-      ->group(kGroup);
-  command
-      .add_option("--circuit-seed", options.seed, "Of the stalls, and of registers without an initial value")
-      ->check(kCount)
-      ->capture_default_str()
-      ->group(kGroup);
-  command
-      .add_option(
-          "--circuit-timeout", options.timeout,
-          "Cycles without a token, while one is due, after which it is given up; 100000 if not given, "
-          "or four for each token of a frame")
-      ->check(kPositive)
-      ->group(kGroup);
-  command
-      .add_option("--circuit-bound", options.bound,
-                  "Most cycles by which a token may leave later than from the model's stage; more is a "
-                  "failure")
+      .add_flag("--circuit-shadow", shadow,
+                "Circuits run beside the model: each gets what the model's stage gets, and what flows on is "
+                "the model's")
+      ->needs(first)
       ->group(kGroup);
 }
 

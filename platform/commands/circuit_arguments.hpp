@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <vector>
+
 #include "platform/input/circuit_options.hpp"
 
 namespace CLI {
@@ -10,9 +12,9 @@ class App;
 namespace parallax {
 
 /// --circuit-top and --circuit-parameter: of Verilog that is built.
-void add_circuit_build_options(CLI::App& command, CircuitOptions& options);
+void add_circuit_build_options(CLI::App& command, CircuitOptions& circuit);
 
-/// --circuit and what belongs to it: a circuit in the place of a stage.
-void add_circuit_options(CLI::App& command, CircuitOptions& options);
+/// --circuit, once for each circuit in the place of a stage, and what belongs to it.
+void add_circuit_options(CLI::App& command, std::vector<CircuitOptions>& circuits, bool& shadow);
 
 }  // namespace parallax

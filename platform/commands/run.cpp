@@ -70,12 +70,12 @@ class Run {
                                            notes_.sink());
     progress_->may_go_on_to(length_.most);
     // Before this process simulates.
-    if (!options_.circuit.circuit.empty()) {
-      circuit_ =
-          std::make_unique<CircuitRun>(options_.circuit, configuration_.machine, model_input(), interrupted_);
+    if (!options_.circuits.empty()) {
+      circuits_ = std::make_unique<CircuitRun>(options_.circuits, options_.circuit_shadow,
+                                               configuration_.machine, model_input(), interrupted_);
       if (interrupted_()) return interrupted(writer);
     }
-    if ((options_.verdict && !circuit_) || options_.report)
+    if ((options_.verdict && !circuits_) || options_.report)
       trials_.emplace(options_.configuration, timing_input(), context_, interruption_);
     const Machine machine("machine", configuration_.machine, machine_input(simulation, writer));
     SamplingTimer timer("sampling_timer");
@@ -120,7 +120,7 @@ class Run {
     input.least_frames = length_.least;
     input.enough = frames_are_enough;
     input.timing_only = options_.timing_only;
-    if (circuit_) input.replacements = circuit_->replacements([] { sc_core::sc_stop(); });
+    if (circuits_) input.replacements = circuits_->replacements([] { sc_core::sc_stop(); });
     input.expose = [this, &simulation](std::int64_t frame) {
       const bool has_images = !options_.timing_only && frame < images_.frames();
       return simulation.at_exposure(frame, [&] { return has_images ? images_.load(frame) : StereoFrame{}; });
@@ -139,7 +139,7 @@ class Run {
     return input;
   }
 
-  // Of the model without the circuit, on the frames with images alone.
+  // Of the model without circuits, on the frames with images alone.
   MachineInput model_input() const {
     MachineInput input;
     input.width = images_.padded().width;
@@ -171,14 +171,19 @@ class Run {
     totals.command = context_.command_line.text();
     if (images_.is_scene()) totals.scene_seed = options_.scene.seed;
     const RunResults results(options_, configuration_, context_, folder_.get());
-    if (circuit_) {
+    if (circuits_) {
       machine.dataflow().bring_up_to_date();
-      circuit_->conclude();
-      if (!circuit_->fault().empty()) {
-        context_.err << fmt::format("parallax: error: the circuit was given up: {}\n", circuit_->fault());
-        tell_of_circuit();
-        return kNotAsExpected;
+      circuits_->conclude();
+      if (!circuits_->fault().empty())
+        context_.err << fmt::format("parallax: error: the circuit was given up: {}\n", circuits_->fault());
+    }
+    if (!machine.finished() && sc_core::sc_get_status() == sc_core::SC_STOPPED) {  // by a circuit
+      if (options_.json) {
+        context_.out << json_text(nlohmann::ordered_json{{"circuits", circuits_->json()}}, 2) << '\n';
+      } else {
+        tell_of_circuits();
       }
+      return kNotAsExpected;
     }
     if (!machine.finished()) {  // the files say how far it came
       const Deadlock deadlock = find_deadlock(machine);
@@ -191,20 +196,17 @@ class Run {
     }
     MetricGroup metrics = measure(machine, totals, images_.size().width, images_.size().height);
     const bool judged = !trials_ || judge(metrics);
-    const nlohmann::ordered_json tree = results.write(metrics, profile_.get(), writer);
+    nlohmann::ordered_json tree = results.write(metrics, profile_.get(), writer);
     if (!judged) return interrupted(writer);
+    if (circuits_) tree["circuits"] = circuits_->json();
     results.print(metrics, tree);
-    if (!circuit_) return 0;
-    tell_of_circuit();
-    return circuit_->as_model() ? 0 : kNotAsExpected;
+    if (!circuits_) return 0;
+    if (!options_.json) tell_of_circuits();
+    return circuits_->as_model() ? 0 : kNotAsExpected;
   }
 
-  void tell_of_circuit() const {
-    if (options_.json) {
-      context_.out << json_text(circuit_->json(), 2) << '\n';
-    } else if (context_.verbosity != Verbosity::kQuiet) {
-      context_.out << circuit_->text();
-    }
+  void tell_of_circuits() const {
+    if (context_.verbosity != Verbosity::kQuiet) context_.out << circuits_->text();
   }
 
   // Adds what limits, but not of a single frame, which has no rate. Says no when it was interrupted.
@@ -248,7 +250,7 @@ class Run {
   const std::function<bool()> interrupted_ = [this] { return interruption_.requested(); };
   std::unique_ptr<OutputFolder> folder_;
   std::unique_ptr<Progress> progress_;
-  std::unique_ptr<CircuitRun> circuit_;  // in the place of a stage, if there is one
+  std::unique_ptr<CircuitRun> circuits_;  // in the place of stages, if there are any
   std::optional<TrialPool> trials_;
   std::unique_ptr<Tracing> tracing_;
   std::unique_ptr<RunProfile> profile_;

@@ -108,7 +108,7 @@ void add_run_command(CLI::App& app, CommandContext& context) {
                   "Stages and memory ports that are traced, a stage with its streams; all if not given")
       ->type_name("NAME,...")
       ->group("Trace");
-  add_circuit_options(command, options->circuit);
+  add_circuit_options(command, options->circuits, options->circuit_shadow);
   add_json_option(command, options->json);
   add_configuration_options(command, options->configuration);
   command.callback(

@@ -4,12 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <sstream>
 #include <utility>
 
 #include "platform/cosim/circuit_build.hpp"
+#include "platform/evaluation/own_process.hpp"
 #include "tlm/error.hpp"
-#include "traces/number_text.hpp"
 
 namespace parallax {
 namespace {
@@ -32,118 +33,155 @@ std::pair<std::string, std::vector<std::filesystem::path>> read_circuit(const st
   return {word.substr(0, equals), files};
 }
 
-std::string cycles_text(std::int64_t cycles) {
-  return grouped(std::to_string(cycles)) + (cycles == 1 ? " cycle" : " cycles");
-}
-
 }  // namespace
 
-CircuitRun::CircuitRun(const CircuitOptions& options, const MachineConfig& config, const MachineInput& model,
-                       const std::function<bool()>& interrupted)
-    : options_(options), frames_(model.frames) {
-  const auto [stage, files] = read_circuit(options.circuit);
-  stage_name_ = stage;
+CircuitRun::CircuitRun(const std::vector<CircuitOptions>& circuits, bool shadow, const MachineConfig& config,
+                       const MachineInput& model, const std::function<bool()>& interrupted)
+    : shadow_(shadow) {
+  if (circuits.size() > CircuitStage::kMost) {
+    throw UserError(fmt::format("--circuit: {} circuits are too many; at most {} can be in one machine",
+                                circuits.size(), CircuitStage::kMost));
+  }
+  std::vector<std::vector<std::filesystem::path>> files;
+  for (const CircuitOptions& options : circuits) {
+    auto [stage, of_it] = read_circuit(options.circuit);
+    for (const Placed& other : circuits_) {
+      if (other.stage == stage)
+        throw UserError(
+            fmt::format("--circuit: {} is given twice; one circuit stands for it", excerpt(stage)));
+    }
+    circuits_.push_back({&options, std::move(stage), nullptr, {}, {}});
+    files.push_back(std::move(of_it));
+  }
   // What is cheap to get wrong comes before what takes long.
-  const CircuitFile library(files, options);
-  circuit_ = std::make_unique<Circuit>(library.path(), static_cast<unsigned>(options.seed));
-  model_ = record_stage(config, model, stage, interrupted);
-  if (model_.outputs.empty() && model_.manifest.streams.empty()) return;  // interrupted
-  pins_ = find_pins(*circuit_, model_.manifest, options);
+  for (std::size_t i = 0; i < circuits_.size(); ++i) {
+    const CircuitOptions& options = *circuits_[i].options;
+    const CircuitFile library(files[i], options);
+    circuits_[i].circuit = std::make_unique<Circuit>(library.path(), static_cast<unsigned>(options.seed));
+  }
+  record(config, model, interrupted);
+  if (shadow_ && !interrupted()) run_shadows(config, model, interrupted);
 }
 
 CircuitRun::~CircuitRun() = default;
 
+void CircuitRun::record(const MachineConfig& config, const MachineInput& model,
+                        const std::function<bool()>& interrupted) {
+  std::vector<std::string> stages;
+  for (const Placed& placed : circuits_) stages.push_back(placed.stage);
+  std::vector<StageRecord> records = record_stages(config, model, stages, interrupted);
+  if (records.empty()) return;  // interrupted
+  for (std::size_t i = 0; i < circuits_.size(); ++i) {
+    Placed& placed = circuits_[i];
+    placed.model = std::move(records[i]);
+    placed.pins = find_pins(*placed.circuit, placed.model.manifest, *placed.options);
+  }
+  std::sort(circuits_.begin(), circuits_.end(),
+            [](const Placed& a, const Placed& b) { return a.model.slot < b.model.slot; });
+  in_place_ = circuits_.size();
+  if (shadow_) return;
+  for (std::size_t i = 1; i < circuits_.size(); ++i) {
+    MachineInput behind = model;
+    behind.replacements = replacements(0, i, [] { sc_core::sc_stop(); });
+    records = record_stages(config, behind, {circuits_[i].stage}, interrupted);
+    if (records.empty()) {  // interrupted, or one upstream was given up, and is again in the run
+      in_place_ = i;
+      return;
+    }
+    circuits_[i].model = std::move(records[0]);
+  }
+}
+
+void CircuitRun::run_shadows(const MachineConfig& config, const MachineInput& model,
+                             const std::function<bool()>& interrupted) {
+  for (std::size_t i = 0; i < circuits_.size(); ++i) {
+    MachineInput beside = model;
+    beside.replacements = replacements(i, i + 1, [] { sc_core::sc_stop(); });
+    const std::optional<std::string> told = in_own_process(
+        [&] {
+          const Machine machine("machine", config, beside);
+          simulate_to_end(machine);
+          machine.dataflow().bring_up_to_date();
+          const CircuitOutcome said = outcome(circuits_[i]);
+          return nlohmann::ordered_json{
+              {"text", said.text}, {"json", said.json}, {"as_model", said.as_model}, {"fault", said.fault}}
+              .dump();
+        },
+        interrupted);
+    if (!told) return;
+    const nlohmann::ordered_json tree = nlohmann::ordered_json::parse(*told);
+    outcomes_.push_back({tree.at("text").get<std::string>(), tree.at("json"), tree.at("as_model").get<bool>(),
+                         tree.at("fault").get<std::string>()});
+  }
+}
+
+StageReplacements CircuitRun::replacements(std::size_t begin, std::size_t end,
+                                           const std::function<void()>& stop) {
+  StageReplacements all;
+  for (std::size_t i = begin; i < end; ++i) {
+    all.emplace(circuits_[i].stage, [this, i, stop](const std::string& name, const StageContext& context) {
+      Placed& placed = circuits_[i];
+      auto stage = std::make_unique<CircuitStage>(name.c_str(), *placed.circuit, placed.pins, placed.model,
+                                                  *placed.options, i, context, stop);
+      placed.module = stage.get();
+      SlotModule slot;
+      slot.module = std::move(stage);
+      slot.takes_tokens = true;
+      // What leads past it is as deep as for the model's stage.
+      slot.look_ahead = placed.model.manifest.look_ahead;
+      slot.latency = placed.model.manifest.latency;
+      return slot;
+    });
+  }
+  return all;
+}
+
 StageReplacements CircuitRun::replacements(const std::function<void()>& stop) {
-  return {{stage_name_, [this, stop](const std::string& name, const StageContext& context) {
-             auto stage = std::make_unique<CircuitStage>(name.c_str(), *circuit_, pins_, model_.manifest,
-                                                         options_, frames_, context, stop);
-             stage_ = stage.get();
-             SlotModule slot;
-             slot.module = std::move(stage);
-             slot.takes_tokens = true;
-             // What leads past it is as deep as for the model's stage.
-             slot.look_ahead = model_.manifest.look_ahead;
-             slot.latency = model_.manifest.latency;
-             return slot;
-           }}};
+  return shadow_ ? StageReplacements{} : replacements(0, in_place_, stop);
+}
+
+CircuitOutcome CircuitRun::outcome(const Placed& placed) {
+  return circuit_outcome(placed.circuit->name(), *placed.module, placed.model, *placed.options);
 }
 
 void CircuitRun::conclude() {
-  as_model_ = stage_->fault().empty() && stage_->breach().empty();
-  std::size_t output = 0;
-  for (const VectorStream& stream : model_.manifest.streams) {
-    if (stream.is_input) continue;
-    const StageRecord::Tokens& model = model_.outputs[output++];
-    const Dump& dump = stage_->written(stream);
-    comparisons_.push_back(compare_tokens(model_.manifest, stream, model.words, dump));
-    as_model_ = as_model_ && comparisons_.back().equal();
-    Timing timing;
-    timing.stream = stream.name;
-    const std::size_t both = std::min(dump.cycles.size(), model.cycles.size());
-    for (std::size_t token = 0; token < both; ++token) {
-      const std::int64_t later = dump.cycles[token] - model.cycles[token];
-      if (token == 0 || later > timing.latest) {
-        timing.latest = later;
-        timing.latest_token = token;
-      }
-    }
-    for (std::size_t last = stream.frame_tokens - 1; last < both; last += stream.frame_tokens) {
-      const std::size_t first = last + 1 - stream.frame_tokens;
-      timing.circuit.push_back(dump.cycles[last] - dump.cycles[first] + 1);
-      timing.model.push_back(model.cycles[last] - model.cycles[first] + 1);
-    }
-    if (options_.bound && both > 0) as_model_ = as_model_ && timing.latest <= *options_.bound;
-    timings_.push_back(std::move(timing));
+  if (shadow_) return;
+  for (std::size_t i = 0; i < in_place_; ++i) outcomes_.push_back(outcome(circuits_[i]));
+  for (std::size_t i = in_place_; i < circuits_.size(); ++i) {
+    const std::string why = "a circuit before it was given up";
+    CircuitOutcome left_out;
+    left_out.text =
+        fmt::format("circuit             {} is left out: {}\n", circuits_[i].circuit->name(), why);
+    left_out.json = {{"module", circuits_[i].circuit->name()},
+                     {"stage", circuits_[i].stage},
+                     {"as_model", false},
+                     {"left_out", why}};
+    outcomes_.push_back(std::move(left_out));
   }
 }
 
-const std::string& CircuitRun::fault() const { return stage_->fault(); }
+bool CircuitRun::as_model() const {
+  return std::all_of(outcomes_.begin(), outcomes_.end(),
+                     [](const auto& outcome) { return outcome.as_model; });
+}
+
+std::string CircuitRun::fault() const {
+  for (const CircuitOutcome& outcome : outcomes_) {
+    if (!outcome.fault.empty()) return outcome.fault;
+  }
+  return {};
+}
 
 std::string CircuitRun::text() const {
-  std::string out =
-      fmt::format("circuit             {} in the place of {}, clocked for {}\n", circuit_->name(),
-                  stage_name_, cycles_text(static_cast<std::int64_t>(stage_->cycles())));
-  if (!stage_->fault().empty()) out += fmt::format("given up            {}\n", stage_->fault());
-  if (!stage_->breach().empty()) out += fmt::format("handshake           {}\n", stage_->breach());
-  for (std::size_t i = 0; i < comparisons_.size(); ++i) {
-    out += parallax::text(comparisons_[i]);
-    const Timing& timing = timings_[i];
-    if (timing.circuit.empty()) continue;
-    out += fmt::format("{:20}{} from the first to the last token of frame 0; the model {}\n", "dates",
-                       cycles_text(timing.circuit[0]), grouped(std::to_string(timing.model[0])));
-    if (timing.latest > 0) {
-      out += fmt::format("{:20}at most {} later than the model, at token {}\n", "",
-                         cycles_text(timing.latest), timing.latest_token);
-    } else if (timing.latest < 0) {
-      out += fmt::format("{:20}each at least {} earlier than the model\n", "", cycles_text(-timing.latest));
-    } else {
-      out += fmt::format("{:20}never later than the model\n", "");
-    }
-    if (options_.bound && timing.latest > *options_.bound) {
-      out += fmt::format("{:20}more than the bound of {}\n", "", cycles_text(*options_.bound));
-    }
-  }
-  return out;
+  std::string all;
+  for (const CircuitOutcome& outcome : outcomes_) all += outcome.text;
+  return all;
 }
 
 nlohmann::ordered_json CircuitRun::json() const {
-  nlohmann::ordered_json out{{"module", circuit_->name()},
-                             {"stage", stage_name_},
-                             {"cycles", stage_->cycles()},
-                             {"as_model", as_model_}};
-  if (!stage_->fault().empty()) out["given_up"] = stage_->fault();
-  if (!stage_->breach().empty()) out["handshake"] = stage_->breach();
-  out["streams"] = nlohmann::ordered_json::array();
-  for (std::size_t i = 0; i < comparisons_.size(); ++i) {
-    nlohmann::ordered_json stream = to_json(comparisons_[i]);
-    const Timing& timing = timings_[i];
-    stream["frame_cycles"] = timing.circuit;
-    stream["model_frame_cycles"] = timing.model;
-    if (!timing.circuit.empty())
-      stream["latest"] = {{"cycles", timing.latest}, {"token", timing.latest_token}};
-    out["streams"].push_back(std::move(stream));
-  }
-  return out;
+  nlohmann::ordered_json all = nlohmann::ordered_json::array();
+  for (const CircuitOutcome& outcome : outcomes_) all.push_back(outcome.json);
+  return all;
 }
 
 }  // namespace parallax

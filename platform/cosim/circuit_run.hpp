@@ -1,63 +1,75 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
 #include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "platform/cosim/circuit_library.hpp"
+#include "platform/cosim/circuit_outcome.hpp"
 #include "platform/cosim/circuit_pins.hpp"
 #include "platform/cosim/circuit_stage.hpp"
 #include "platform/cosim/stage_record.hpp"
-#include "platform/cosim/token_comparison.hpp"
 #include "platform/input/circuit_options.hpp"
 #include "platform/machine/machine_input.hpp"
 
 namespace parallax {
 
-/// A circuit in a run of the machine, in the place of a stage, beside what the model's stage did there.
+/// Circuits in a run of the machine, each in the place of a stage, beside what the model's stage did on the
+/// same tokens.
+///
+/// Of several, each stands behind the real output of those before it, which is recorded first: in a machine
+/// with the circuits upstream and the model's stage in its own place. That machine says what the model does
+/// on these tokens, and what a token's value is that the circuit reads before the stages between have it, as
+/// these work on whole rows.
+///
+/// As shadows, each runs in a machine of its own in which all else is the model; nothing of theirs is in the
+/// run.
 class CircuitRun {
  public:
-  /// Builds the circuit if it is given as Verilog, loads it, and runs the model (record_stage) on the first
-  /// `frames` frames, those with images; `model` brings them. Throws UserError, as these do.
-  CircuitRun(const CircuitOptions& options, const MachineConfig& config, const MachineInput& model,
-             const std::function<bool()>& interrupted);
+  /// Builds circuits that are given as Verilog, loads them, and runs the model (record_stages) on the
+  /// `model.frames` frames with images. Throws UserError, as these do, and for two circuits of one stage.
+  /// When `interrupted` said yes, nothing else may be called.
+  CircuitRun(const std::vector<CircuitOptions>& circuits, bool shadow, const MachineConfig& config,
+             const MachineInput& model, const std::function<bool()>& interrupted);
   ~CircuitRun();
 
-  /// For the machine that it is to stand in, which it must outlive; `stop` ends the simulation.
+  /// For the machine that they are to stand in, which they must outlive; `stop` ends the simulation.
   StageReplacements replacements(const std::function<void()>& stop);
 
   /// After the simulation, once.
   void conclude();
-  /// Whether it did as the model does: values, handshake, and the bound on its dates if there is one.
-  bool as_model() const { return as_model_; }
-  /// Why it was given up; empty: it was not.
-  const std::string& fault() const;
+  /// Whether all did as the model does.
+  bool as_model() const;
+  /// Why one was given up; empty: none was.
+  std::string fault() const;
   std::string text() const;
-  nlohmann::ordered_json json() const;
+  nlohmann::ordered_json json() const;  ///< an array, upstream first
 
  private:
-  struct Timing {  // of an output stream, in cycles
-    std::string stream;
-    std::vector<std::int64_t> circuit, model;  ///< from its first frame's first token to each one's last
-    std::int64_t latest = 0;                   ///< most that a token is behind the model's
-    std::uint64_t latest_token = 0;
+  struct Placed {
+    const CircuitOptions* options;
+    std::string stage;
+    std::unique_ptr<Circuit> circuit;
+    StageRecord model;
+    CircuitPins pins;
+    CircuitStage* module = nullptr;  // belongs to the machine
   };
 
-  const CircuitOptions& options_;
-  const std::int64_t frames_;
-  std::string stage_name_;
-  std::unique_ptr<Circuit> circuit_;
-  StageRecord model_;
-  CircuitPins pins_;
-  CircuitStage* stage_ = nullptr;  // belongs to the machine
-  std::vector<TokenComparison> comparisons_;
-  std::vector<Timing> timings_;
-  bool as_model_ = false;
+  void record(const MachineConfig& config, const MachineInput& model,
+              const std::function<bool()>& interrupted);
+  void run_shadows(const MachineConfig& config, const MachineInput& model,
+                   const std::function<bool()>& interrupted);
+  StageReplacements replacements(std::size_t begin, std::size_t end, const std::function<void()>& stop);
+  static CircuitOutcome outcome(const Placed& placed);
+
+  const bool shadow_;
+  std::vector<Placed> circuits_;  // upstream first
+  std::size_t in_place_ = 0;      // of these, behind none that was given up before
+  std::vector<CircuitOutcome> outcomes_;
 };
 
 }  // namespace parallax

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -11,8 +12,8 @@
 #include "modules/raster_schedule.hpp"
 #include "platform/cosim/circuit_library.hpp"
 #include "platform/cosim/circuit_pins.hpp"
-#include "platform/cosim/dump_file.hpp"
-#include "platform/cosim/vector_manifest.hpp"
+#include "platform/cosim/circuit_port.hpp"
+#include "platform/cosim/stage_record.hpp"
 #include "platform/input/circuit_options.hpp"
 #include "platform/machine/circuit_end.hpp"
 #include "tlm/dataflow.hpp"
@@ -34,32 +35,33 @@ namespace parallax {
 /// When nothing has been due for a thousand cycles, as between frames, the clock stands until the next token.
 ///
 /// It goes ahead of the kernel's time as long as the dates that it needs are known. Where one is not, the
-/// kernel's time comes to the cycle first, and the token is not there, or there is no room.
+/// kernel's time comes to the cycle first, and the token is not there, or there is no room. Of several
+/// circuits, one upstream does what it does in a cycle before those downstream.
 class CircuitStage final : public sc_core::sc_module, public Actor, public CircuitEnds {
  public:
-  /// `stage`: the model's, with the tokens of a frame. Tokens of the first `frames` frames have values.
-  /// `stop` is called once, when it cannot go on: fault() says why. All must outlive it.
+  /// At most so many in one machine.
+  static constexpr std::size_t kMost = 64;
+
+  /// `model`: what the model's stage did, with values of the frames that have images. `order`: of circuits in
+  /// one machine, upstream first, from 0. `stop` is called once, when it cannot go on: fault() says why. All
+  /// must outlive it.
   CircuitStage(const sc_core::sc_module_name& name, Circuit& circuit, const CircuitPins& pins,
-               const VectorManifest& stage, const CircuitOptions& options, std::int64_t frames,
+               const StageRecord& model, const CircuitOptions& options, std::size_t order,
                const StageContext& context, std::function<void()> stop);
   ~CircuitStage() override;
 
   void add(std::unique_ptr<CircuitEnd> end) override;
   void advance() override;
 
-  /// What an output stream of the model's stage was given here, with the cycle of each token.
-  const Dump& written(const VectorStream& stream) const;
-  /// Why the circuit was given up: it hangs, has ended the simulation, or was asked for a value that is not
-  /// known; empty: it was not.
+  /// Output `index` of the model's stage.
+  const CircuitOutput& output(std::size_t index) const { return *outputs_.at(index); }
+  /// Why the circuit was given up: it hangs, or has ended the simulation; empty: it was not.
   const std::string& fault() const { return fault_; }
   /// The first breach of the handshake; empty: none.
-  const std::string& breach() const { return breach_; }
+  const std::string& breach() const;
   std::uint64_t cycles() const { return clocked_; }  ///< in which it was clocked
 
  private:
-  struct Input;
-  struct Output;
-
   void end_of_elaboration() override;
   void start_of_simulation() override;
   void resolve();
@@ -68,11 +70,7 @@ class CircuitStage final : public sc_core::sc_module, public Actor, public Circu
   bool all_known() const;
   void wait_for_dates();
   void step();
-  void offer(Input& input);
-  bool take(Input& input, bool stands);
-  bool put(Output& output, bool stands);
   bool can_run() const;
-  void watch(Output& out);
   void edge();
   void give_up(const std::string& why);
   std::string waits() const;
@@ -81,18 +79,16 @@ class CircuitStage final : public sc_core::sc_module, public Actor, public Circu
 
   Circuit& circuit_;
   const CircuitPins& pins_;
-  const VectorManifest& stage_;
   const CircuitOptions& options_;
-  const std::int64_t frames_;
   const ClockDomain& clock_;
   const std::function<void()> stop_;
-  const std::uint64_t flush_;  // tokens behind each pass
+  const sc_core::sc_time after_edge_;  // where the kernel's time has come this far, the edge's turn is here
 
   std::uint64_t timeout_ = 0;  // cycles
 
   std::vector<std::unique_ptr<CircuitEnd>> ends_;
-  std::vector<std::unique_ptr<Input>> inputs_;
-  std::vector<std::unique_ptr<Output>> outputs_;
+  std::vector<std::unique_ptr<CircuitInput>> inputs_;
+  std::vector<std::unique_ptr<CircuitOutput>> outputs_;
   std::uint64_t steps_ = 0;    // of a circuit without valid at its outputs, in this pass
   std::uint64_t of_pass_ = 0;  // of these, one pass over the image or a tile
   bool needs_all_ = false;     // an output has no valid: there is a step only with a token at each input
@@ -105,7 +101,6 @@ class CircuitStage final : public sc_core::sc_module, public Actor, public Circu
   sc_core::sc_event timer_;
   bool timer_runs_ = false;
   std::string fault_;
-  std::string breach_;
 };
 
 }  // namespace parallax

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -12,21 +13,27 @@
 
 namespace parallax {
 
-/// What went out of a stage of the model while the machine processed images.
+/// What went in and out of a stage while the machine processed images.
 struct StageRecord {
   VectorManifest manifest;
   struct Tokens {
     TokenWords words;
-    std::vector<std::int64_t> cycles;  ///< of the core's clock, in which each was written
+    std::vector<std::int64_t> cycles;  ///< of the core's clock, in which each was read, or written
   };
-  std::vector<Tokens> outputs;  ///< as the output streams of the manifest
+  std::vector<Tokens> streams;  ///< as those of the manifest
+  std::size_t slot = 0;         ///< of the pipeline that the stage stands in, 0 is the first upstream
 };
 
-/// Runs the machine without replacements on `frames` frames with images, in a process of its own, as this one
-/// may have one simulation only; `expose` brings the images. Throws UserError when there is no such stage, or
-/// when that machine fails. `interrupted` is asked some ten times a second; when it says yes, the record has
-/// no frames.
-StageRecord record_stage(const MachineConfig& config, const MachineInput& input, const std::string& stage,
-                         const std::function<bool()>& interrupted);
+/// The records of some stages, of one machine that processes `input.frames` frames with images, in a process
+/// of its own. None when `interrupted` (in_own_process) said yes, or when a circuit in the place of another
+/// stage has stopped the simulation before the last frame. Throws UserError when there is no such stage, or
+/// when that machine fails.
+std::vector<StageRecord> record_stages(const MachineConfig& config, const MachineInput& input,
+                                       const std::vector<std::string>& stages,
+                                       const std::function<bool()>& interrupted);
+
+/// Simulates `machine` until its last frame is at the host, or until something stops the simulation; throws
+/// UserError when it gets stuck.
+void simulate_to_end(const Machine& machine);
 
 }  // namespace parallax

@@ -43,6 +43,11 @@ class TokenWords {
   void set(const TokenField& field, std::uint64_t value);
   void set_unknown(const TokenField& field);
 
+  /// As append() takes them.
+  void read(std::uint64_t token, std::vector<std::uint64_t>& bits) const {
+    const auto begin = bits_.begin() + static_cast<std::ptrdiff_t>(token * stride_);
+    bits.assign(begin, begin + static_cast<std::ptrdiff_t>(stride_));
+  }
   bool same(std::uint64_t token, const TokenWords& other, std::uint64_t other_token) const;
   bool unknown(std::uint64_t token) const;  ///< some bit of it
   bool unknown(std::uint64_t token, const TokenField& field) const;

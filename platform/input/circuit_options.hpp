@@ -10,7 +10,7 @@ namespace parallax {
 
 /// What the user said of a circuit in the place of a stage.
 struct CircuitOptions {
-  std::string circuit;                  ///< STAGE=FILE[,FILE...]: a library, or Verilog; empty: none
+  std::string circuit;                  ///< STAGE=FILE[,FILE...]: a library, or Verilog
   std::string top;                      ///< the top module; empty: the only one
   std::vector<std::string> parameters;  ///< NAME=VALUE, of Verilog
   std::vector<std::string> pins;        ///< ROLE=PIN: "in_left.data=pixel", "clock=clk_i"

@@ -105,7 +105,7 @@ void check_report(const RunOptions& options) {
 
 // A circuit works on values, and a machine without it says nothing of it.
 void check_circuit(const RunOptions& options) {
-  if (options.circuit.circuit.empty()) return;
+  if (options.circuits.empty()) return;
   const char* const other = options.timing_only ? "--timing-only" : options.report ? "--report" : nullptr;
   if (other != nullptr) throw UserError(fmt::format("--circuit and {} exclude each other", other));
 }

@@ -36,7 +36,8 @@ struct RunOptions {
   std::string cameras;  ///< "2,3": of a calibration with several
   std::string map;
   bool fit = false;
-  CircuitOptions circuit;
+  std::vector<CircuitOptions> circuits;  ///< each in the place of another stage
+  bool circuit_shadow = false;           ///< they run beside the model, and nothing of theirs flows on
   // Output.
   bool timing_only = false;       ///< no images are computed
   std::vector<std::string> vary;  ///< "key=v1,v2,...": a grid of timing-only runs

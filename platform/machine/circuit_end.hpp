@@ -29,10 +29,11 @@ class CircuitEnd {
   /// Of whoever stands at this end.
   virtual void attach(const std::string& module, Actor* actor) = 0;
 
-  /// The bits of the next token to read, or nothing: the token has no value, as in frames without images.
+  /// The bits of the next token to read, or nothing: the token has no value, as in frames without images, or
+  /// none yet.
   virtual bool front(std::vector<std::uint64_t>& bits) = 0;
-  /// It was read.
-  virtual void pop() = 0;
+  /// It was read; `comes_late`: its value comes later, and is for nobody then.
+  virtual void pop(bool comes_late) = 0;
   /// Hands over the next token that is written.
   virtual void send(const std::vector<std::uint64_t>& bits) = 0;
 
@@ -62,8 +63,11 @@ class ValueEnd final : public CircuitEnd {
   ValueEnd(const std::string& port, bool is_input, const TokenShape& of, Stream<T>& stream)
       : CircuitEnd(port, is_input, of, stream), values_stream_(stream), runs_(shape().runs) {
     if (!is_input) return;
-    stream.on_row(
-        0, [this](const T* row, std::size_t length) { values_.insert(values_.end(), row, row + length); });
+    stream.on_row(0, [this](const T* row, std::size_t length) {
+      const std::size_t read = std::min(late_, length);
+      late_ -= read;
+      values_.insert(values_.end(), row + read, row + length);
+    });
   }
 
   void attach(const std::string& module, Actor* actor) override {
@@ -82,8 +86,9 @@ class ValueEnd final : public CircuitEnd {
     return true;
   }
 
-  void pop() override {
+  void pop(bool comes_late) override {
     const std::size_t size = std::min(token_size(), values_.size());
+    if (comes_late) late_ += token_size() - size;
     values_.erase(values_.begin(), values_.begin() + static_cast<std::ptrdiff_t>(size));
     if (!shape().runs.empty()) runs_.next();
   }
@@ -103,6 +108,7 @@ class ValueEnd final : public CircuitEnd {
   Stream<T>& values_stream_;
   PlaceInRuns runs_;
   std::deque<T> values_;  // that are not read
+  std::size_t late_ = 0;  // values that were read before they came
   std::vector<T> token_;
 };
 

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "platform/cosim/circuit_port.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace parallax {
+namespace {
+
+void set_if_there(const parallax_pin* pin, std::uint64_t value) {
+  if (pin != nullptr) set_pin(*pin, value);
+}
+
+}  // namespace
+
+std::string CircuitPort::place(std::uint64_t token) const {
+  return fmt::format("token {} of frame {}", token % stream.frame_tokens, token / stream.frame_tokens);
+}
+
+CircuitInput::CircuitInput(const CircuitPort& port, std::uint64_t seed)
+    : port_(port),
+      pass_tokens_(port.pass_tokens()),
+      pass_flush_(port.options.flush.value_or(port.options.latency)),
+      stalls_(port.options.stall, seed) {}
+
+void CircuitInput::offer(Cycles cycle) {
+  const bool there = flush_ > 0 || (stream().read_date_known() && stream().readable_at() <= cycle);
+  if (there && !offered_) offered_ = cycle >= next_ && !stalls_.next();
+  set_if_there(port_.pins.valid, offered_ ? 1 : 0);
+  if (offered_ && !loaded_) load();
+}
+
+void CircuitInput::load() {
+  loaded_ = true;
+  const bool zeros = flush_ > 0;
+  const TokenFormat& format = port_.stream.shape.format;
+  comes_late_ = false;
+  if (zeros || !port_.has_value(tokens_)) {
+    bits_.assign((format.width().size() + 63) / 64, 0);
+  } else if (!end_->front(bits_)) {
+    comes_late_ = true;
+    port_.model.words.read(tokens_, bits_);
+  }
+  const std::vector<PortPins::Data>& data = port_.pins.data;
+  if (data.size() == 1) {
+    set_pin(*data[0].pin, bits_);
+  } else {
+    FieldUnpacker fields(format, bits_);
+    for (const PortPins::Data& each : data) set_pin(*each.pin, static_cast<std::uint64_t>(fields.next()));
+  }
+  const std::uint64_t token = tokens_ % pass_tokens_;
+  const std::uint64_t row_tokens = port_.stream.shape.row_tokens;
+  const bool rows = row_tokens > 0;
+  set_if_there(port_.pins.first, !zeros && token == 0 ? 1 : 0);
+  set_if_there(port_.pins.last, !zeros && rows && token % row_tokens == row_tokens - 1 ? 1 : 0);
+  set_if_there(port_.pins.row, rows ? token / row_tokens : 0);
+  set_if_there(port_.pins.column, rows ? token % row_tokens : token);
+}
+
+bool CircuitInput::take(Cycles cycle, bool stands) {
+  const parallax_pin* const ready = port_.pins.ready;
+  const bool wanted = !stands && (ready == nullptr || is_set(*ready));
+  if (!offered_) {
+    if (ready != nullptr && wanted) starved_ += Cycles(1);
+    return false;
+  }
+  if (!wanted) return false;
+  offered_ = loaded_ = false;
+  next_ = cycle + Cycles(static_cast<std::int64_t>(port_.options.interval));
+  if (flush_ > 0) {
+    --flush_;
+    return true;
+  }
+  end_->pop(comes_late_);
+  stream().mark_read(cycle, starved_);
+  starved_ = Cycles(0);
+  if (++tokens_ % pass_tokens_ == 0) flush_ = pass_flush_;
+  return true;
+}
+
+std::string CircuitInput::wait() const {
+  return fmt::format(
+      offered_ ? "{} offers {}, and the circuit is not ready" : "{} has no token ({} comes next)",
+      port_.stream.name, port_.place(tokens_));
+}
+
+CircuitOutput::CircuitOutput(const CircuitPort& port, std::uint64_t seed)
+    : port_(port),
+      pass_tokens_(port.pass_tokens()),
+      stalls_(port.options.stall, seed),
+      dump_{TokenWords(port.stream.shape.format.width().size()), {}},
+      skip_(port.options.skip) {}
+
+bool CircuitOutput::dates_known() const {
+  return std::all_of(ends_.begin(), ends_.end(),
+                     [](const CircuitEnd* end) { return end->stream().write_date_known(); });
+}
+
+void CircuitOutput::make_ready(Cycles cycle) {
+  ready_ = !stalls_.next();
+  for (const CircuitEnd* end : ends_) {
+    const StreamBase& stream = end->stream();
+    ready_ = ready_ && stream.write_date_known() && stream.writable_at() <= cycle;
+  }
+  set_if_there(port_.pins.ready, ready_ ? 1 : 0);
+}
+
+// A token that is offered stays until it is taken.
+void CircuitOutput::look(Cycles cycle, bool always) {
+  const PortPins& pins = port_.pins;
+  valid_ = pins.valid != nullptr ? is_set(*pins.valid) : always;
+  if (pins.ready == nullptr || pins.valid == nullptr || !breach_.empty()) return;
+  if (held_ && !valid_) {
+    breach_ = fmt::format("{}: valid goes from 1 to 0 before token {} was taken, in cycle {}",
+                          port_.stream.name, tokens_, cycle.count());
+  }
+  if (!valid_ || (!held_ && ready_)) return;
+  read_pin(*pins.data[0].pin, bits_);
+  if (held_ && bits_ != before_) {
+    breach_ = fmt::format("{}: the data change before token {} was taken, in cycle {}", port_.stream.name,
+                          tokens_, cycle.count());
+  }
+  before_.swap(bits_);
+}
+
+void CircuitOutput::read() {
+  const std::vector<PortPins::Data>& data = port_.pins.data;
+  if (data.size() == 1) {
+    read_pin(*data[0].pin, bits_);
+    return;
+  }
+  FieldPacker fields(port_.stream.shape.format, bits_);
+  for (const PortPins::Data& each : data) {
+    read_pin(*each.pin, value_);
+    const std::size_t width = each.field.width;
+    const bool negative = width < 64 && each.field.is_signed && (value_[0] >> (width - 1) & 1u) != 0;
+    fields.next(static_cast<std::int64_t>(negative ? value_[0] | ~std::uint64_t{0} << width : value_[0]));
+  }
+}
+
+bool CircuitOutput::put(Cycles cycle, bool stands, std::uint64_t frames) {
+  if (!valid_) return false;
+  if (!ready_ || stands) {
+    blocked_ += Cycles(1);
+    held_ = port_.pins.ready != nullptr && !ready_;
+    return false;
+  }
+  held_ = false;
+  if (skip_ > 0) {
+    --skip_;
+    return true;
+  }
+  if (!owes(frames) && breach_.empty()) {
+    breach_ = fmt::format("{}: a token more than the {} of frame {}, in cycle {}", port_.stream.name,
+                          port_.stream.frame_tokens, frames - 1, cycle.count());
+  }
+  read();
+  const bool has_value = port_.has_value(tokens_);
+  if (has_value) {
+    dump_.words.append(bits_);
+    dump_.cycles.push_back(cycle.count());
+    if (!differs_) {
+      differs_ = dump_.words.size() > port_.model.words.size() ||
+                 !dump_.words.same(dump_.words.size() - 1, port_.model.words, dump_.words.size() - 1);
+    }
+  }
+  for (CircuitEnd* end : ends_) {
+    if (has_value) end->send(bits_);
+    end->stream().mark_written(cycle, blocked_);
+  }
+  blocked_ = Cycles(0);
+  if (++tokens_ % pass_tokens_ == 0) skip_ = port_.options.skip;
+  return true;
+}
+
+std::string CircuitOutput::wait() const {
+  return fmt::format("at {} {} {}", port_.stream.name,
+                     valid_ ? "there is no room for" : "the circuit does not offer", port_.place(tokens_));
+}
+
+}  // namespace parallax

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "platform/cosim/circuit_pins.hpp"
+#include "platform/cosim/dump_file.hpp"
+#include "platform/cosim/stage_record.hpp"
+#include "platform/cosim/stalls.hpp"
+#include "platform/cosim/vector_manifest.hpp"
+#include "platform/input/circuit_options.hpp"
+#include "platform/machine/circuit_end.hpp"
+
+namespace parallax {
+
+/// A port of a circuit between its pins and a stream of the machine. What is passed by reference must outlive
+/// it.
+struct CircuitPort {
+  const VectorManifest& stage;
+  const VectorStream& stream;
+  const StageRecord::Tokens& model;  ///< what passed there in the model
+  const PortPins& pins;
+  const CircuitOptions& options;
+
+  std::uint64_t pass_tokens() const { return stage.pass_tokens(stream); }
+  /// Whether the token is of a frame with images.
+  bool has_value(std::uint64_t token) const {
+    return token / stream.frame_tokens < static_cast<std::uint64_t>(stage.frames);
+  }
+  /// "token 12 of frame 0"
+  std::string place(std::uint64_t token) const;
+};
+
+/// Tokens into a circuit: valid and data are driven here, ready comes from the circuit.
+class CircuitInput {
+ public:
+  CircuitInput(const CircuitPort& port, std::uint64_t seed);
+
+  const CircuitPort& port() const { return port_; }
+  void bind(CircuitEnd& end) { end_ = &end; }
+  StreamBase& stream() const { return end_->stream(); }
+  /// Whether it is known from when on the next token is there.
+  bool date_known() const { return flush_ > 0 || stream().read_date_known(); }
+
+  /// Puts what there is in this cycle on the pins. A token whose value comes later than its date, from stages
+  /// that work on whole rows behind another circuit, has the recorded one.
+  void offer(Cycles cycle);
+  bool offered() const { return offered_; }
+  /// Whether it was taken, the circuit's clock standing still or not.
+  bool take(Cycles cycle, bool stands);
+
+  std::uint64_t tokens_begun() const { return tokens_ + (offered_ && flush_ == 0 ? 1 : 0); }
+  /// What it waits for.
+  std::string wait() const;
+
+ private:
+  void load();
+
+  const CircuitPort port_;
+  const std::uint64_t pass_tokens_;
+  const std::uint64_t pass_flush_;  // tokens of zeros behind each pass
+  CircuitEnd* end_ = nullptr;
+  Stalls stalls_;
+  std::uint64_t tokens_ = 0;  // that were taken
+  std::uint64_t flush_ = 0;   // tokens of zeros that are still due behind the frame
+  bool offered_ = false;      // valid is 1, and stays so until the token is taken
+  bool loaded_ = false;       // its bits are on the pins
+  bool comes_late_ = false;   // its value
+  Cycles next_{0};            // earliest cycle of the next one
+  Cycles starved_{0};         // cycles in which it was wanted and not there
+  std::vector<std::uint64_t> bits_;
+};
+
+/// Tokens out of a circuit: ready is driven here, valid and data come from the circuit.
+class CircuitOutput {
+ public:
+  CircuitOutput(const CircuitPort& port, std::uint64_t seed);
+
+  const CircuitPort& port() const { return port_; }
+  /// Several have the same tokens.
+  void add(CircuitEnd& end) { ends_.push_back(&end); }
+  const std::vector<CircuitEnd*>& ends() const { return ends_; }
+  /// Whether it is known from when on there is room.
+  bool dates_known() const;
+
+  /// Drives ready.
+  void make_ready(Cycles cycle);
+  bool ready() const { return ready_; }
+  /// After evaluation: `always` is valid, if it has no such pin.
+  void look(Cycles cycle, bool always);
+  bool valid() const { return valid_; }
+  /// Whether the token passed. `frames`: those that have begun, of which there may be tokens.
+  bool put(Cycles cycle, bool stands, std::uint64_t frames);
+
+  bool owes(std::uint64_t frames) const { return tokens_ < frames * port_.stream.frame_tokens; }
+  /// The first breach of the handshake; empty: none.
+  const std::string& breach() const { return breach_; }
+  /// Whether a value was not the model's.
+  bool differs() const { return differs_; }
+  const Dump& dump() const { return dump_; }
+  std::uint64_t tokens() const { return tokens_; }  ///< that were written
+  std::string wait() const;
+
+ private:
+  void read();
+
+  const CircuitPort port_;
+  const std::uint64_t pass_tokens_;
+  std::vector<CircuitEnd*> ends_;
+  Stalls stalls_;
+  Dump dump_;
+  std::uint64_t skip_;        // tokens that count for nothing before the next one of a frame
+  std::uint64_t tokens_ = 0;  // that were written
+  bool ready_ = false;
+  bool valid_ = false;
+  bool held_ = false;  // a token was offered and not taken
+  bool differs_ = false;
+  Cycles blocked_{0};
+  std::string breach_;
+  std::vector<std::uint64_t> bits_, before_, value_;
+};
+
+}  // namespace parallax

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "platform/evaluation/own_process.hpp"
+
+#include <fmt/format.h>
+
+#include <exception>
+#include <stdexcept>
+#include <systemc>
+
+#include "platform/evaluation/worker_process.hpp"
+#include "tlm/error.hpp"
+
+namespace parallax {
+namespace {
+
+// The first letter of an answer: whether the rest is the result, or what was thrown.
+constexpr char kDone = '+';
+constexpr char kUserError = '-';
+constexpr char kFailed = '!';
+
+std::string answer(const std::function<std::string()>& work) {
+  try {
+    sc_core::sc_report_handler::set_actions(sc_core::SC_INFO, sc_core::SC_DO_NOTHING);
+    sc_core::sc_report_handler::set_actions(sc_core::SC_ID_NO_SC_START_ACTIVITY_, sc_core::SC_DO_NOTHING);
+    return kDone + work();
+  } catch (const UserError& error) {
+    return kUserError + std::string(error.what());
+  } catch (const sc_core::sc_report& report) {
+    return kFailed + fmt::format("{}: {}", report.get_msg_type(), report.get_msg());
+  } catch (const std::exception& error) {
+    return kFailed + std::string(error.what());
+  }
+}
+
+}  // namespace
+
+std::optional<std::string> in_own_process(const std::function<std::string()>& work,
+                                          const std::function<bool()>& interrupted) {
+  WorkerProcess process([&work](const std::string&) { return answer(work); });
+  process.ask({});
+  while (process.state() == WorkerProcess::State::kWorking) {
+    if (interrupted()) return std::nullopt;
+    process.receive(WorkerProcess::kPollMilliseconds);
+  }
+  if (process.state() != WorkerProcess::State::kAnswered)
+    throw std::runtime_error(fmt::format("a simulation's process ended by signal {}", process.signal()));
+  const std::string answered = process.take_answer();
+  const std::string text = answered.substr(1);
+  if (answered[0] == kUserError) throw UserError(text);
+  if (answered[0] == kFailed) throw std::runtime_error(text);
+  return text;
+}
+
+}  // namespace parallax
