@@ -3,12 +3,14 @@
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-install(TARGETS parallax parallax_tlm parallax_modules parallax_traces parallax_platform EXPORT parallax)
+install(TARGETS parallax parallax_tlm parallax_modules parallax_traces parallax_platform parallax_stage EXPORT parallax)
 install(DIRECTORY tlm modules traces platform DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/parallax
-  FILES_MATCHING PATTERN "*.hpp" PATTERN presets EXCLUDE)
+  FILES_MATCHING PATTERN "*.hpp" PATTERN presets EXCLUDE PATTERN cosim/stage EXCLUDE)
 install(DIRECTORY platform/presets/ DESTINATION ${CMAKE_INSTALL_DATADIR}/parallax/presets
   OPTIONAL FILES_MATCHING PATTERN "*.toml")
 install(DIRECTORY platform/cosim/circuit/ DESTINATION ${CMAKE_INSTALL_DATADIR}/parallax/circuit)
+install(FILES platform/cosim/stage/parallax_stage.h platform/cosim/stage/parallax_stage.sv
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/parallax/stage)
 
 set(package ${CMAKE_INSTALL_LIBDIR}/cmake/parallax)
 install(EXPORT parallax DESTINATION ${package} NAMESPACE parallax:: FILE parallax-targets.cmake)

@@ -27,6 +27,7 @@
 #include "platform/commands/report_command.hpp"
 #include "platform/commands/run_command.hpp"
 #include "platform/commands/scene_command.hpp"
+#include "platform/commands/stage_command.hpp"
 #include "platform/commands/validate_command.hpp"
 #include "platform/commands/vectors_command.hpp"
 #include "platform/config/nearest_name.hpp"
@@ -115,6 +116,7 @@ void add_commands(CLI::App& app, CommandContext& context) {
   add_compare_command(app, context);
   add_circuit_command(app, context);
   add_fifo_command(app, context);
+  add_stage_command(app, context);
   refuse_empty_values(app);
 }
 

@@ -85,17 +85,18 @@ struct VectorCapture::Port {
   std::unique_ptr<TokenTap> tap;
 };
 
-void check_vectors(const Machine& machine, const std::string& stage, const char* option) {
-  const std::vector<std::string> all = machine.pipeline().slots();
+void check_vectors(const Pipeline& pipeline, const MachineConfig& config, const std::string& stage,
+                   const char* option) {
+  const std::vector<std::string> all = pipeline.slots();
   if (std::find(all.begin(), all.end(), stage) == all.end()) {
     throw UserError(fmt::format("{}: there is no stage '{}'; the nearest of this machine's is {}", option,
                                 excerpt(stage), nearest_name(stage, all)));
   }
-  const std::vector<TokenPort> ports = machine.pipeline().ports(stage);
+  const std::vector<TokenPort> ports = pipeline.ports(stage);
   const bool has_costs = std::any_of(ports.begin(), ports.end(), [](const TokenPort& port) {
     return port.shape.first_disparity.has_value();
   });
-  if (has_costs && machine.config().matching.parallel_rows > 1) {
+  if (has_costs && config.matching.parallel_rows > 1) {
     throw UserError(
         "matching.parallel_rows is more than 1: the model has the values of such tokens in the order of "
         "rows, "

@@ -40,7 +40,11 @@ VectorManifest stage_manifest(const Machine& machine, const std::string& stage);
 /// Throws UserError when the pipeline has no such stage, naming the nearest, or when its tokens are not known
 /// as they lie on wires.
 /// `option`: that names it.
-void check_vectors(const Machine& machine, const std::string& stage, const char* option);
+void check_vectors(const Pipeline& pipeline, const MachineConfig& config, const std::string& stage,
+                   const char* option);
+inline void check_vectors(const Machine& machine, const std::string& stage, const char* option) {
+  check_vectors(machine.pipeline(), machine.config(), stage, option);
+}
 
 /// How the files of vectors end, but for the manifest.
 inline constexpr std::array kVectorEndings{".memh", ".dates", "_tb.sv", "_stub.sv"};

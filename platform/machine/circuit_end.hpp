@@ -36,6 +36,8 @@ class CircuitEnd {
   virtual void pop(bool comes_late) = 0;
   /// Hands over the next token that is written.
   virtual void send(const std::vector<std::uint64_t>& bits) = 0;
+  /// What comes here from now on is lost.
+  virtual void ignore() = 0;
 
  protected:
   CircuitEnd(std::string port, bool is_input, TokenShape shape, StreamBase& stream)
@@ -98,6 +100,10 @@ class ValueEnd final : public CircuitEnd {
     unpack_values(shape().format, bits, token_.data(), token_.size());
     if (!shape().runs.empty()) runs_.next();
     values_stream_.send_row(token_.data(), token_.size());
+  }
+
+  void ignore() override {
+    if (is_input()) values_stream_.on_row(0, [](const T*, std::size_t) {});
   }
 
  private:

@@ -202,7 +202,7 @@ void Pipeline::place_filters(const TilePlan& tiles) {
                     return slot;
                   });
   }
-  last_filter_ = stages().back();
+  if (const std::vector<StageInfo> before = stages(); !before.empty()) last_filter_ = before.back();
   wiring_.place<OutputPackingStage>("output_packing", {},
                                     packing(tiles, config_.link.output_left(), config_.dma.output), context_);
 }

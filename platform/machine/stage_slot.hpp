@@ -41,8 +41,12 @@ SlotModule slot_module(std::unique_ptr<S> stage);
 /// Makes what stands in a slot, under the slot's name.
 using StageFactory = std::function<SlotModule(const std::string& name, const StageContext& context)>;
 
-/// What takes the place of the usual stages, by the names of their slots (as in reports: "census").
+/// What takes the place of the usual stages, by the names of their slots (as in reports: "census"). An empty
+/// factory: the usual stage.
 using StageReplacements = std::map<std::string, StageFactory>;
+
+/// In place of a name, all slots that are not named.
+constexpr const char* kAllOtherSlots = "*";
 
 namespace detail {
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "modules/token_formats.hpp"
+#include "platform/machine/circuit_end.hpp"
 #include "platform/machine/token_shape.hpp"
 #include "tlm/stream.hpp"
 #include "tlm/tap.hpp"
@@ -39,6 +40,9 @@ struct TokenPort {
   TokenShape shape;
   /// To be called before the simulation starts.
   std::function<std::unique_ptr<TokenTap>(const TokenTap::Take& take)> tap;
+  /// The other end of its (first) stream, in place of who takes the values there: with is_input() where the
+  /// port is an output.
+  std::function<std::unique_ptr<CircuitEnd>()> opposite;
 };
 
 /// Tokens of values of type T, one field after the other onto the wires.

@@ -13,8 +13,10 @@ Wiring::Wiring(const StreamConfig& streams, const StageContext& context, StageRe
     : streams_config_(streams), context_(context), replacements_(std::move(replacements)) {}
 
 Wiring::Slot& Wiring::place(const std::string& name, const Facts& facts, const StageFactory& usual) {
-  const auto replaced = replacements_.find(name);
-  const StageFactory& factory = replaced == replacements_.end() ? usual : replaced->second;
+  auto replaced = replacements_.find(name);
+  if (replaced == replacements_.end()) replaced = replacements_.find(kAllOtherSlots);
+  const bool is_usual = replaced == replacements_.end() || !replaced->second;
+  const StageFactory& factory = is_usual ? usual : replaced->second;
   auto slot = std::make_unique<Slot>(Slot{name, facts, factory(name, context_)});
   slot->content.storage += facts.storage;
   slots_.push_back(std::move(slot));
@@ -50,20 +52,22 @@ std::vector<TokenPort> Wiring::ports(const std::string& slot) const {
       same->streams.push_back(end.stream);
       continue;
     }
-    all.push_back({end.port.port,
-                   end.is_input,
-                   {end.stream},
-                   end.shape,
-                   [is_input = end.is_input, tap = end.tap](const TokenTap::Take& take) {
-                     return tap(is_input, take);
-                   }});
+    all.push_back(
+        {end.port.port,
+         end.is_input,
+         {end.stream},
+         end.shape,
+         [is_input = end.is_input, tap = end.tap](const TokenTap::Take& take) { return tap(is_input, take); },
+         end.opposite});
   }
   std::stable_partition(all.begin(), all.end(), [](const TokenPort& each) { return each.is_input; });
   return all;
 }
 
 void Wiring::build() {
-  for (const auto& [name, factory] : replacements_) index(name);
+  for (const auto& [name, factory] : replacements_) {
+    if (name != kAllOtherSlots && factory) index(name);
+  }
 
   ForkGraph graph;
   for (const auto& slot : slots_) {

@@ -73,10 +73,13 @@ class Wiring {
   template <class T>
   void attach(Stream<T>& stream, const TokenShape& shape, const PortName& port) {
     const bool is_input = bind<T>(stream, shape, port);
-    ends_.push_back(
-        {port, is_input, stream.basename(), shape, [&stream, shape](bool reads, const TokenTap::Take& take) {
-           return std::make_unique<ValueTap<T>>(stream, shape, reads, take);
-         }});
+    ends_.push_back({port, is_input, stream.basename(), shape,
+                     [&stream, shape](bool reads, const TokenTap::Take& take) {
+                       return std::make_unique<ValueTap<T>>(stream, shape, reads, take);
+                     },
+                     [&stream, shape, name = port.port, is_input] {
+                       return std::make_unique<ValueEnd<T>>(name, !is_input, shape, stream);
+                     }});
   }
 
   /// Makes and binds the streams. Nothing can be placed or connected behind this.
@@ -106,6 +109,7 @@ class Wiring {
     std::string stream;
     TokenShape shape;
     std::function<std::unique_ptr<TokenTap>(bool reads, const TokenTap::Take& take)> tap;
+    std::function<std::unique_ptr<CircuitEnd>()> opposite;
   };
 
   std::size_t index(const std::string& slot) const;

@@ -137,7 +137,7 @@ TEST(Documents, TheirCodeIsWhatTheTestsCompile) {
   std::size_t count = 0;
   for (const std::string& page : all_pages()) {
     for (const FencedBlock& block : fenced_blocks(read_text(source_path(page)))) {
-      if (block.language != "cpp" && block.language != "cmake") continue;
+      if (block.language != "cpp" && block.language != "cmake" && block.language != "systemverilog") continue;
       std::string code;
       for (const std::string& line : block.lines) code += line + "\n";
       EXPECT_NE(read_text(source_path(block.note)).find(code), std::string::npos)

@@ -19,3 +19,22 @@ run(${area}/build/own_initiator)
 run(${area}/build/own_memory)
 run(${area}/build/own_exploration)
 run(${area}/build/own_circuit --timing-frames 1 --no-verdict)
+
+# A test bench in SystemVerilog that asks the installed library (DPI-C), with a circuit that is right and one that is not.
+file(GLOB_RECURSE library ${area}/prefix/libparallax_stage.so)
+cmake_path(GET library PARENT_PATH library_folder)
+foreach(fault NONE COMPARISON)
+  run(verilator --binary --timing --top-module census_bench -DFAULT_${fault} -Mdir ${area}/bench_${fault}
+    ${area}/prefix/share/parallax/stage/parallax_stage.sv ${CMAKE_CURRENT_LIST_DIR}/census_bench.sv
+    ${CMAKE_CURRENT_LIST_DIR}/../rtl/census_5x5.sv ${library} -LDFLAGS -Wl,-rpath,${library_folder})
+  execute_process(COMMAND ${CMAKE_COMMAND} -E env PARALLAX=${area}/prefix/bin/parallax ${area}/bench_${fault}/Vcensus_bench
+    RESULT_VARIABLE ended OUTPUT_VARIABLE said ERROR_VARIABLE said)
+  set(expected "PASS 3072 codes of each image")
+  if(NOT fault STREQUAL "NONE")
+    set(expected "out_left: the first difference is token 0 \\(pass 0, row 0, token 0 of the row\\): expected [0-9a-f]+, got [0-9a-f]+")
+  endif()
+  if(NOT said MATCHES "${expected}" OR (fault STREQUAL "NONE" AND NOT ended EQUAL 0) OR
+      (NOT fault STREQUAL "NONE" AND ended EQUAL 0))
+    message(FATAL_ERROR "census_bench with the fault ${fault} ended with ${ended}:\n${said}")
+  endif()
+endforeach()
