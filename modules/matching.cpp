@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "modules/matching.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cstddef>
 #include <optional>
@@ -13,22 +11,21 @@
 #include "modules/bit_packer.hpp"
 #include "modules/cost_row.hpp"
 #include "modules/path_costs.hpp"
-#include "modules/require_range.hpp"
 #include "modules/token_formats.hpp"
-#include "tlm/error.hpp"
 
 namespace parallax {
 namespace {
 
-constexpr int kMaxDisparities = 256;
-constexpr int kMaxPenalty = 255;
-constexpr int kMaxCost = 255;  // of two pixels
-constexpr int kMostPathBits = 16;
-constexpr int kMaxShift = 11;      // one bit is left of twelve
-constexpr int kCodePiece = 32;     // bits of a code that are packed at once
-constexpr int kMaxCostWeight = 4;  // a weighted cost of 63 bits fits in a byte
-constexpr int kMostParallelRows = 64;
+constexpr int kCodePiece = 32;  // bits of a code that are packed at once
+const MatchingTaps kNoTaps;
 constexpr int kRowLag = 2;  // columns that a row is behind the one above
+
+// Of a single path, the place of its bit.
+std::size_t path_number(unsigned path) {
+  std::size_t number = 0;
+  while (path >> number != 1) ++number;
+  return number;
+}
 
 int path_count(unsigned paths) {
   int count = 0;
@@ -38,13 +35,10 @@ int path_count(unsigned paths) {
 
 std::size_t count_of(const MatchingConfig& config) { return config.range().count; }
 
-// A path cost at most, whatever the penalties, and its bits.
+// A path cost at most, whatever the penalties.
 int largest_path_cost(const MatchingConfig& config, int code_bits) {
-  const int needed = config.largest_cost(code_bits) + kMaxPenalty;
+  const int needed = config.largest_cost(code_bits) + MatchingConfig::kMaxPenalty;
   return config.path_bits == 0 ? needed : std::min(needed, (1 << config.path_bits) - 1);
-}
-int path_cost_bits(const MatchingConfig& config, int code_bits) {
-  return config.path_bits == 0 ? bits_for(largest_path_cost(config, code_bits)) : config.path_bits;
 }
 
 // Of sums over some of the paths, and of those of the first pass if there is a second one.
@@ -63,115 +57,33 @@ void shift_down(Cost* sums, std::size_t count, int shift) {
 
 /// The northern and horizontal paths of `paths` as delay lines; `turned`: the paths opposite to the southern
 /// ones, for a frame that is read backwards.
-std::vector<Path> make_paths(const MatchingConfig& config, int width, bool turned) {
-  struct Entry {
-    unsigned bit;
-    Path::Direction direction;
-  };
-  const std::vector<Entry> first = {
-      {kPathW, {-1, 0}}, {kPathNW, {-1, 1}}, {kPathN, {0, 1}}, {kPathNE, {1, 1}}};
-  const std::vector<Entry> second = {{kPathSE, {-1, 1}}, {kPathS, {0, 1}}, {kPathSW, {1, 1}}};
+std::vector<Path> make_paths(const MatchingConfig& config, int width, bool turned, const MatchingTaps& taps) {
   std::vector<Path> paths;
-  for (const Entry& entry : turned ? second : first) {
-    if (config.paths & entry.bit) paths.emplace_back(entry.direction, config, width);
+  for (const PathBit bit :
+       turned ? std::vector{kPathSE, kPathS, kPathSW} : std::vector{kPathW, kPathNW, kPathN, kPathNE}) {
+    if ((config.paths & bit) != 0) paths.emplace_back(bit, config, width, taps.any());
   }
   return paths;
 }
 
 }  // namespace
 
-int MatchingConfig::largest_cost(int code_bits) const {
-  const int inside = cost == MatchingCost::kHamming ? cost_weight * code_bits : (1 << code_bits) - 1;
-  return outside_cost == OutsideCost::kValue ? std::max(inside, outside_value) : inside;
-}
-
-void MatchingConfig::validate() const {
-  require_range("matching.parallelism", parallelism, 1, kMaxDisparities);
-  require_range("matching.parallel_rows", parallel_rows, 1, kMostParallelRows);
-  require_range("matching.iterations", iterations, 1, kMaxDisparities);
-  require_range("matching.disparity_offset", disparity_offset, 0, kMaxDisparities - 1);
-  if (disparity_offset + iterations * parallelism > kMaxDisparities) {
-    throw UserError(
-        fmt::format("matching.disparity_offset + matching.iterations x matching.parallelism = {} + {} x {} = "
-                    "{}: must be at most {}",
-                    disparity_offset, iterations, parallelism, disparity_offset + iterations * parallelism,
-                    kMaxDisparities));
-  }
-  require_range("matching.recurrence_latency", recurrence_latency, 1, 1000);
-  require_range("matching.cost_weight", cost_weight, 1, kMaxCostWeight);
-  require_range("matching.outside_value", outside_value, 0, kMaxCost);
-  if (outside_cost != OutsideCost::kValue && outside_value != kMaxCost) {
-    throw UserError(
-        fmt::format("matching.outside_value = {}: has no effect without matching.outside_cost = \"value\"",
-                    outside_value));
-  }
-  require_range("matching.p1", p1, 0, kMaxPenalty);
-  require_range("matching.p2", p2, 0, kMaxPenalty);
-  if (p1 >= p2) throw UserError(fmt::format("matching.p1 = {}: must be below matching.p2 = {}", p1, p2));
-  require_range("matching.path_bits", path_bits, 0, kMostPathBits);
-  if (path_overflow == PathOverflow::kWrap && path_bits == 0) {
-    throw UserError(
-        "matching.path_overflow = \"wrap\": has no effect with matching.path_bits = 0, as many as needed");
-  }
-  require_range("matching.sum_shift", sum_shift, 0, kMaxShift);
-  if (paths == 0 || paths > kEightPaths) {
-    throw UserError(
-        fmt::format("matching.paths = {:#x}: must name one to eight of w, nw, n, ne, e, sw, s, se", paths));
-  }
-}
-
-void MatchingConfig::validate_tokens(int pixels) const {
-  const bool whole = pixels % parallel_rows == 0 || parallel_rows % pixels == 0;
-  if (!whole || pixels * iterations % parallel_rows != 0) {
-    throw UserError(fmt::format(
-        "matching.parallel_rows = {}: must be a multiple or a divisor of pipeline.pixels_per_token = {}, "
-        "and divide pipeline.pixels_per_token * matching.iterations = {}",
-        parallel_rows, pixels, pixels * iterations));
-  }
-  if (parallel_rows > 1 && path_start != PathStart::kCost && path_start != PathStart::kClamp) {
-    throw UserError(
-        fmt::format("matching.parallel_rows = {}: needs matching.path_start = \"cost\" or \"clamp\", "
-                    "with others paths go on over the ends of rows",
-                    parallel_rows));
-  }
-  if (parallel_rows > 1 && path_storage == PathStorage::kMemory) {
-    throw UserError(fmt::format(
-        "matching.parallel_rows = {}: needs matching.path_storage = \"on_chip\", costs of rows at once "
-        "do not pass the memory",
-        parallel_rows));
-  }
-}
-
-void MatchingConfig::validate_census(bool census) const {
-  if (cost == MatchingCost::kHamming && !census) {
-    throw UserError(
-        "matching.cost = \"hamming\": needs census.enabled = true; grey values have "
-        "\"absolute_difference\"");
-  }
-  if (cost == MatchingCost::kAbsoluteDifference && census) {
-    throw UserError(
-        "matching.cost = \"absolute_difference\": needs census.enabled = false, it is of grey values");
-  }
-}
-
 struct Matching::State {
-  State(const MatchingConfig& matching, int columns, int rows, int bits)
+  State(const MatchingConfig& matching, int columns, int rows, int bits, const MatchingTaps& opened)
       : config(matching),
+        taps(opened),
+        tapped(opened.any()),
         width(columns),
         height(rows),
         code_bits(bits),
         count(matching.range().count),
         cost_row(matching, columns, bits),
         before(cost_row.reach()),
-        first_pass(make_paths(matching, columns, false)),
-        second_pass(make_paths(matching, columns, true)),
+        first_pass(make_paths(matching, columns, false, opened)),
+        second_pass(make_paths(matching, columns, true, opened)),
         costs(area(columns, count)),
         sums(area(columns, count)) {
-    if (config.paths & kPathE) {
-      MatchingConfig restarting = config;
-      restarting.path_start = PathStart::kCost;
-      east.emplace(Path::Direction{-1, 0}, restarting, width);
-    }
+    if (config.paths & kPathE) east.emplace(kPathE, config, width, tapped);
     if (!second_pass.empty()) {
       left_codes.resize(area(width, height));
       right_codes.resize(area(width, height));
@@ -187,11 +99,29 @@ struct Matching::State {
     for (int x = 0; x < width; ++x) {
       for (Path& path : first_pass) path.advance(x, row, costs.data() + x * count, out + x * count);
     }
+    if (tapped) {
+      if (taps.pixel_costs) taps.pixel_costs(std::vector<Cost>(costs.begin(), costs.end()).data());
+      for (Path& path : first_pass) tap(path, row);
+    }
     if (!east) return;
     for (int i = 0; i < width; ++i) {
       const int x = width - 1 - i;
       east->advance(i, row, costs.data() + x * count, out + x * count);
     }
+    if (tapped) tap(*east, row);
+  }
+
+  /// Hands over row `y` of a path, pixels in raster order of its pass.
+  void tap(Path& path, int y) const {
+    const MatchingTaps::Take& take = taps.paths[path_number(path.bit())];
+    if (!take) return;
+    std::vector<Cost> path_costs;
+    path_costs.reserve(area(width, count));
+    for (int x = 0; x < width; ++x) {
+      const PathCosts here = path.at(x, y);
+      path_costs.insert(path_costs.end(), here.costs, here.costs + count);
+    }
+    take(path_costs.data());
   }
 
   /// Moves `before` on to the next row.
@@ -256,11 +186,16 @@ struct Matching::State {
         Cost* out = frame_sums.data() + first * count + x * count;
         for (Path& path : second_pass) path.advance(j, i, costs.data() + x * count, out);
       }
+      if (tapped) {
+        for (Path& path : second_pass) tap(path, i);
+      }
       keep_row(second_pass, i, take);
     }
   }
 
   MatchingConfig config;
+  const MatchingTaps& taps;
+  bool tapped;  ///< some is open
   int width;
   int height;
   int code_bits;
@@ -281,7 +216,7 @@ struct Matching::State {
 };
 
 Matching::Matching(const MatchingConfig& config, int width, int height, int code_bits)
-    : config_(config), width_(width), height_(height), code_bits_(code_bits) {
+    : config_(config), width_(width), height_(height), code_bits_(code_bits), taps_(&kNoTaps) {
   config.validate();
   if (config.cost == MatchingCost::kAbsoluteDifference && code_bits != kGrayBits) {
     throw std::logic_error("grey values have 8 bits");
@@ -290,9 +225,14 @@ Matching::Matching(const MatchingConfig& config, int width, int height, int code
 
 Matching::~Matching() = default;
 
+void Matching::open(const MatchingTaps& taps) {
+  if (state_ != nullptr) throw std::logic_error("taps are opened before the first row");
+  taps_ = &taps;
+}
+
 void Matching::push(const CensusCode* left, const CensusCode* right, const RowSink<Cost>& emit,
                     const MatchingKeeper& keeper) {
-  if (state_ == nullptr) state_ = std::make_unique<State>(config_, width_, height_, code_bits_);
+  if (state_ == nullptr) state_ = std::make_unique<State>(config_, width_, height_, code_bits_, *taps_);
   State& s = *state_;
   const std::size_t first = area(s.row, s.width);
   if (one_pass()) {
@@ -316,6 +256,19 @@ void Matching::push(const CensusCode* left, const CensusCode* right, const RowSi
 
 int summed_cost_bits(const MatchingConfig& config, int code_bits) {
   return bits_for(path_count(config.paths) * largest_path_cost(config, code_bits) >> config.sum_shift);
+}
+
+int path_cost_bits(const MatchingConfig& config, int code_bits) {
+  return config.path_bits == 0 ? bits_for(largest_path_cost(config, code_bits)) : config.path_bits;
+}
+
+int pixel_cost_bits(const MatchingConfig& config, int code_bits) {
+  return bits_for(config.largest_cost(code_bits));
+}
+
+ScanOrder path_order(PathBit path) {
+  if ((path & kSouthernPaths) != 0) return ScanOrder::kTurned;
+  return path == kPathE ? ScanOrder::kRightToLeft : ScanOrder::kRaster;
 }
 
 // With parallel rows the last one of them has to come in before the first column is worked on, and its last
@@ -352,7 +305,7 @@ std::int64_t Matching::storage_bits() const {
   bits += (at_once - 1) * width * (2 * code_bits_ + kDisparityBits);
   if (config_.paths & kPathE) {
     bits += at_once * width * count *
-            (bits_for(config_.largest_cost(code_bits_)) + sum_bits(config_, code_bits_, config_.paths));
+            (pixel_cost_bits(config_, code_bits_) + sum_bits(config_, code_bits_, config_.paths));
   }
   return bits;
 }

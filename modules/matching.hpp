@@ -6,8 +6,10 @@
 #include <functional>
 #include <memory>
 
+#include "modules/matching_taps.hpp"
 #include "modules/pixel.hpp"
 #include "modules/row_sink.hpp"
+#include "modules/scan_order.hpp"
 #include "modules/winner.hpp"
 
 namespace parallax {
@@ -80,6 +82,8 @@ enum class RecurrenceOrder {
 };
 
 struct MatchingConfig {
+  static constexpr int kMaxPenalty = 255;  ///< of p1 and p2
+
   /// Rows that the circuit works on at once, each p comparisons wide and two columns behind the row above, as
   /// path NE needs; 1..64. Of the stage's time and storage, not of its values; own choice.
   int parallel_rows = 1;
@@ -143,6 +147,13 @@ struct MatchingKeeper {
 
 /// Bits of an output value, whatever the penalties are: they are set while the circuit runs.
 int summed_cost_bits(const MatchingConfig& config, int code_bits);
+/// Bits of a path cost, likewise, and of a matching cost C.
+int path_cost_bits(const MatchingConfig& config, int code_bits);
+int pixel_cost_bits(const MatchingConfig& config, int code_bits);
+
+/// In which order the circuit comes by the costs of a path, and MatchingTaps: the northern ones and w in
+/// raster order, e from right to left, the southern ones turned, in the second pass.
+ScanOrder path_order(PathBit path);
 
 /// Semi-global matching: census codes or grey values of a rectified pair to summed path costs.
 ///
@@ -166,6 +177,9 @@ class Matching {
   /// `code_bits` (1..63): meaningful bits of a code; 8 of a grey value.
   Matching(const MatchingConfig& config, int width, int height, int code_bits);
   ~Matching();
+
+  /// Before the first row. `taps` must outlive the kernel.
+  void open(const MatchingTaps& taps);
 
   /// One row of `width` codes or grey values of each image; emits rows of width * range().count costs.
   void push(const CensusCode* left, const CensusCode* right, const RowSink<Cost>& emit,
@@ -193,6 +207,7 @@ class Matching {
   int width_;
   int height_;
   int code_bits_;
+  const MatchingTaps* taps_;
   std::unique_ptr<State>
       state_;  // made with the first row: a machine of which only the time is asked has none
 };

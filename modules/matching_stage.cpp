@@ -31,6 +31,7 @@ MatchingStage::MatchingStage(const sc_core::sc_module_name& name, const Matching
                  const CensusCode* left, const CensusCode* right) {
                if (const auto change = changes_.at_row()) {
                  kernel_.emplace(*change, context.width, context.height, code_bits);
+                 if (taps_ != nullptr) kernel_->open(*taps_);
                }
                kernel_->push(
                    left, right, [this, length](const Cost* costs) { out_costs.send_row(costs, length); },

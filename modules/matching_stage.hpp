@@ -44,6 +44,11 @@ class MatchingStage final : public Stage {
   /// The configuration for the next frame that has none yet, or none: as before. What fixes the schedule
   /// must not change.
   void configure(const std::optional<MatchingConfig>& config) { changes_.push(config); }
+  /// Before the simulation; `taps` are asked with each row, and must outlive it.
+  void open(const MatchingTaps& taps) {
+    taps_ = &taps;
+    kernel_->open(taps);
+  }
   std::uint64_t look_ahead() const { return look_ahead_; }
   Bits storage() const { return storage_; }
   const MatchingStore& store() const { return store_; }
@@ -61,6 +66,7 @@ class MatchingStage final : public Stage {
   KeptRows rows_kept_;
   KeptRows frame_kept_;
   MatchingKeeper keeper_;
+  const MatchingTaps* taps_ = nullptr;  // none are open
 };
 
 }  // namespace parallax

@@ -10,7 +10,6 @@ namespace {
 
 /// Above every path cost, and no overflow when a penalty (at most 255) is added.
 constexpr std::int16_t kNever = 0x3FFF;
-constexpr int kNoColumn = -1;
 constexpr int kBitsOfEveryPathCost = 9;  // at most 510
 
 std::int16_t min16(std::int16_t a, std::int16_t b) { return a < b ? a : b; }
@@ -48,10 +47,17 @@ std::int16_t continue_path(const std::uint8_t* __restrict costs, int count,
 
 }  // namespace
 
-Path::Path(Direction direction, const MatchingConfig& config, int width)
-    : direction_(direction),
-      start_(config.path_start),
-      restart_column_(start_ == PathStart::kFirstColumn ? 0 : kNoColumn),
+PathStep path_step(const MatchingConfig& config, PathBit path) {
+  const auto is = [path](unsigned paths) { return (path & paths) != 0 ? 1 : 0; };
+  const int dx = is(kPathNE | kPathE | kPathSE) - is(kPathW | kPathNW | kPathSW);
+  const bool from_left = path_order(path) == ScanOrder::kRaster;
+  return {from_left ? dx : -dx, 1 - is(kPathW | kPathE),
+          path == kPathE ? PathStart::kCost : config.path_start};
+}
+
+Path::Path(PathBit bit, const MatchingConfig& config, int width, bool whole_row)
+    : bit_(bit),
+      step_(path_step(config, bit)),
       count_(config.range().count),
       p1_(static_cast<std::int16_t>(config.p1)),
       p2_(static_cast<std::int16_t>(config.p2)),
@@ -59,7 +65,7 @@ Path::Path(Direction direction, const MatchingConfig& config, int width)
       overflow_(config.path_overflow),
       largest_(static_cast<std::int16_t>(narrow_ ? (1 << config.path_bits) - 1 : kNever)),
       width_(width),
-      slots_(direction.rows_up == 0 ? 2 : width + 2) {
+      slots_(step_.rows_up == 0 && !whole_row ? 2 : width + 2) {
   costs_.assign(area(slots_, count_ + PathCosts::kGuard) + PathCosts::kGuard, kNever);
   minima_.resize(slots_);
 }
@@ -69,31 +75,9 @@ PathCosts Path::slot(int position) {
   return {costs_.data() + i * (count_ + PathCosts::kGuard) + PathCosts::kGuard, minima_.data() + i};
 }
 
-int Path::predecessor(int x, int y) const {
-  const int from_x = x + direction_.dx;
-  const int from_y = y - direction_.rows_up;
-  const int here = y * width_ + x;
-  const int there = from_y * width_ + from_x;
-  if (x == restart_column_) return -1;
-  if (from_x >= 0 && from_x < width_) return there;
-  const bool horizontal = direction_.rows_up == 0;
-  switch (start_) {
-    case PathStart::kCost:
-      return -1;
-    case PathStart::kClamp:
-      return horizontal ? -1 : here - width_;
-    case PathStart::kCarry:
-      return horizontal ? there : -1;
-    case PathStart::kDelayLine:
-    case PathStart::kFirstColumn:
-      return there < here ? there : -1;
-  }
-  return -1;
-}
-
 inline void Path::step(int x, int y, const std::uint8_t* costs, Cost* sums) {
   const PathCosts here = slot(y * width_ + x);
-  const int before = predecessor(x, y);
+  const int before = step_.predecessor(x, y, width_);
   if (before < 0) {
     *here.minimum = start_path(costs, count_, here.costs, sums);
   } else {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "modules/matching.hpp"
+#include "modules/path_step.hpp"
 #include "modules/pixel.hpp"
 
 namespace parallax {
@@ -22,31 +23,29 @@ struct PathCosts {
 /// costs, as the circuit has. The predecessor lies a fixed number of raster positions back.
 class Path {
  public:
-  /// `dx` -1, 0 or 1 and `rows_up` 0 or 1: where the predecessor lies.
-  struct Direction {
-    int dx;
-    int rows_up;
-  };
-  Path(Direction direction, const MatchingConfig& config, int width);
+  /// `whole_row`: at() is asked for pixels of the row above also of a horizontal path, which alone has no
+  /// need of them.
+  Path(PathBit bit, const MatchingConfig& config, int width, bool whole_row = false);
+
+  PathBit bit() const { return bit_; }
 
   /// Next pixel (column x, row y) in raster order: its path costs from the matching costs, added to `sums`.
   void advance(int x, int y, const std::uint8_t* costs, Cost* sums);
 
-  /// Of a pixel that was advanced to at most a row ago.
+  /// Of a pixel that was advanced to at most a row ago, or if neither the next row needs them nor the whole
+  /// row is held, a pixel ago.
   PathCosts at(int x, int y) { return slot(y * width_ + x); }
   /// Whether the next row needs them.
-  bool from_above() const { return direction_.rows_up != 0; }
+  bool from_above() const { return step_.rows_up != 0; }
 
  private:
   PathCosts slot(int position);
   void step(int x, int y, const std::uint8_t* costs, Cost* sums);
   void advance_narrow(int x, int y, const std::uint8_t* costs, Cost* sums);
   void narrow(const PathCosts& here, Cost* sums) const;
-  int predecessor(int x, int y) const;  ///< raster position, negative if there is none
 
-  Direction direction_;
-  PathStart start_;
-  int restart_column_;  ///< where all pixels start anew
+  PathBit bit_;
+  PathStep step_;
   int count_;
   std::int16_t p1_;
   std::int16_t p2_;

@@ -16,6 +16,7 @@
 #include "platform/commands/exit_codes.hpp"
 #include "platform/config/nearest_name.hpp"
 #include "platform/cosim/dump_file.hpp"
+#include "platform/cosim/path_sums.hpp"
 #include "platform/cosim/token_comparison.hpp"
 #include "tlm/error.hpp"
 #include "traces/json_text.hpp"
@@ -35,6 +36,13 @@ struct NamedDump {
   std::string file;
 };
 
+UserError no_stream(const VectorManifest& manifest, const std::string& where, const std::string& name) {
+  std::vector<std::string> names;
+  for (const VectorStream& stream : manifest.streams) names.push_back(stream.name);
+  return UserError(fmt::format("{}: {} has no stream '{}'; the nearest is {}", where, manifest.stage,
+                               excerpt(name), nearest_name(name, names)));
+}
+
 // FILE, which is of the first output stream, or STREAM=FILE.
 NamedDump dump_of(const VectorManifest& manifest, const std::string& word) {
   const std::size_t equals = word.find('=');
@@ -42,24 +50,36 @@ NamedDump dump_of(const VectorManifest& manifest, const std::string& word) {
     const std::string name = word.substr(0, equals);
     if (const VectorStream* const stream = manifest.find(name)) return {stream, word.substr(equals + 1)};
     if (!std::filesystem::exists(word)) {
-      std::vector<std::string> names;
-      for (const VectorStream& stream : manifest.streams) names.push_back(stream.name);
-      throw UserError(fmt::format("--dump {}: {} has no stream '{}'; the nearest is {}", excerpt(word),
-                                  manifest.stage, excerpt(name), nearest_name(name, names)));
+      throw no_stream(manifest, "--dump " + excerpt(word), name);
     }
   }
-  const auto output = std::find_if(manifest.streams.begin(), manifest.streams.end(),
-                                   [](const VectorStream& stream) { return !stream.is_input; });
+  const auto output =
+      std::find_if(manifest.streams.begin(), manifest.streams.end(),
+                   [](const VectorStream& stream) { return !stream.is_input && !stream.is_tap; });
   if (output == manifest.streams.end())
     throw UserError(fmt::format("{} has no output stream: --dump STREAM=FILE", manifest.stage));
   return {&*output, word};
 }
 
-DumpSignals read_signals(const std::vector<std::string>& words) {
+// Of a stream: KIND=NAME, which is of all streams, and STREAM.KIND=NAME.
+DumpSignals read_signals(const VectorManifest& manifest, const VectorStream& stream,
+                         const std::vector<std::string>& words) {
   DumpSignals signals;
-  for (const std::string& word : words) {
+  std::vector<std::string> in_order = words;
+  const auto is_of_all = [](const std::string& word) {
+    return word.substr(0, word.find('=')).find('.') == std::string::npos;
+  };
+  std::stable_partition(in_order.begin(), in_order.end(), is_of_all);
+  for (const std::string& word : in_order) {
     const std::size_t equals = word.find('=');
-    const std::string kind = word.substr(0, equals);
+    std::string kind = word.substr(0, equals);
+    if (!is_of_all(word)) {
+      const std::string of = kind.substr(0, kind.rfind('.'));
+      const VectorStream* const named = manifest.find(of);
+      if (named == nullptr) throw no_stream(manifest, "--signals " + excerpt(word), of);
+      kind = kind.substr(of.size() + 1);
+      if (named != &stream) continue;
+    }
     std::string* const target = kind == "data"    ? &signals.data
                                 : kind == "valid" ? &signals.valid
                                 : kind == "ready" ? &signals.ready
@@ -74,8 +94,14 @@ DumpSignals read_signals(const std::vector<std::string>& words) {
   return signals;
 }
 
+// More telling than what else was found.
+void say_first(TokenComparison& comparison, const DifferencePattern& pattern) {
+  std::vector<DifferencePattern>& all = comparison.patterns;
+  if (all.front().name == "none") all.clear();
+  all.insert(all.begin(), pattern);
+}
+
 int compare_dumps(const DumpOptions& options, CommandContext& context) {
-  const DumpSignals signals = read_signals(options.signals);
   const VectorManifest manifest = read_vector_manifest(options.vectors);
   bool equal = true;
   std::string said;
@@ -83,8 +109,11 @@ int compare_dumps(const DumpOptions& options, CommandContext& context) {
   for (const std::string& word : options.dumps) {
     const NamedDump dump = dump_of(manifest, word);
     const TokenWords expected = read_vectors((options.vectors / dump.stream->file).string(), *dump.stream);
+    const DumpSignals signals = read_signals(manifest, *dump.stream, options.signals);
     const Dump got = read_dump(dump.file, *dump.stream, signals);
-    const TokenComparison comparison = compare_tokens(manifest, *dump.stream, expected, got);
+    TokenComparison comparison = compare_tokens(manifest, *dump.stream, expected, got);
+    if (const auto one_path = find_one_path(comparison, expected, got.words, options.vectors))
+      say_first(comparison, *one_path);
     equal = equal && comparison.equal();
     said += text(comparison);
     streams.push_back(to_json(comparison));
@@ -129,9 +158,9 @@ void add_compare_command(CLI::App& app, CommandContext& context) {
   command
       .add_option(
           "--signals", options->signals,
-          "Of a VCD, which signals are the stream: data=NAME,valid=NAME,ready=NAME,clock=NAME; if not "
-          "given, PORT_data, PORT_valid, PORT_ready and clk")
-      ->type_name("KIND=NAME,...")
+          "Of a VCD, which signals are the stream: data=NAME,valid=NAME,ready=NAME,clock=NAME; of several "
+          "streams STREAM.data=NAME and so on; if not given, PORT_data, PORT_valid, PORT_ready and clk")
+      ->type_name("[STREAM.]KIND=NAME,...")
       ->delimiter(',');
   add_json_option(command, options->json);
   command.callback([options, &context] {

@@ -34,7 +34,7 @@ namespace {
 struct VectorsOptions {
   RunOptions run;
   std::string stage;
-  bool dates = false;
+  VectorExtras extras;
 };
 
 bool ends_with(const std::string& name, const std::string& ending) {
@@ -54,7 +54,10 @@ std::string text(const VectorManifest& manifest) {
                   manifest.stage, manifest.interval, manifest.interval == 1 ? "" : "s", manifest.latency,
                   manifest.look_ahead, manifest.look_ahead == 1 ? "" : "s");
   for (const VectorStream& stream : manifest.streams) {
-    out += fmt::format("  {:17} {:3} {} tokens of {} bits\n", stream.name, stream.is_input ? "in" : "out",
+    out += fmt::format("  {:17} {:3} {} tokens of {} bits\n", stream.name,
+                       stream.is_input ? "in"
+                       : stream.is_tap ? "tap"
+                                       : "out",
                        grouped(std::to_string(stream.tokens)), stream.shape.format.width().count());
   }
   return out;
@@ -88,14 +91,15 @@ int write_vectors(const VectorsOptions& options, CommandContext& context) {
   };
   const Machine machine("machine", configuration.machine, input);
   check_vectors(machine, options.stage, "--stage");
+  if (options.extras.taps) check_taps(machine, options.stage, "--taps");
 
   FolderPlan plan = folder_plan(options.run, ResultPlan{});
-  plan.writes = [names = vector_file_names(machine, options.stage, options.dates)](const std::string& name) {
+  plan.writes = [names = vector_file_names(machine, options.stage, options.extras)](const std::string& name) {
     return names.count(name) > 0;
   };
   plan.replaces = is_of_vectors;
   OutputFolder folder(options.run.out, plan);
-  VectorCapture capture(machine, options.stage, options.dates, folder);
+  VectorCapture capture(machine, options.stage, options.extras, folder);
   notes.begin();
   simulation.run([](double) {});
   progress.reset();
@@ -141,8 +145,13 @@ void add_vectors_command(CLI::App& app, CommandContext& context) {
       ->required()
       ->group("Output");
   command
-      .add_flag("--dates", options->dates,
+      .add_flag("--dates", options->extras.dates,
                 "Write also in which cycle of the core's clock each token is read or written in the machine")
+      ->group("Output");
+  command
+      .add_flag("--taps", options->extras.taps,
+                "Write also what the matcher works out on the way to its sums: the matching costs, and each "
+                "path's costs")
       ->group("Output");
   add_json_option(command, options->run.json);
   add_configuration_options(command, options->run.configuration);

@@ -8,6 +8,7 @@
 #include <functional>
 #include <set>
 
+#include "platform/cosim/path_origin.hpp"
 #include "platform/cosim/token_shift.hpp"
 
 namespace parallax {
@@ -15,6 +16,12 @@ namespace {
 
 constexpr std::size_t kSamples = 200;  // differing tokens that a guess must explain before all are looked at
 constexpr std::int64_t kWidestRim = 16;  // px; 31 x 31 is the largest usual window
+
+// "path nw" of path_nw.
+std::string words_of(std::string name) {
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
 
 std::uint64_t mask(std::size_t bits) {
   return bits >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << bits) - 1;
@@ -58,6 +65,7 @@ class PatternSearch {
       if (!find_constant()) {
         found_ = find_shift(comparison_, expected_, got_, differing_);
         find_values();
+        if (found_.empty()) find_origin();
       }
     }
     find_regions();
@@ -68,6 +76,10 @@ class PatternSearch {
 
  private:
   void add(const std::string& name, const std::string& text) { found_.push_back({name, text}); }
+
+  void find_origin() {
+    if (const auto origin = find_path_origin(comparison_, expected_, got_)) found_.push_back(*origin);
+  }
 
   bool find_constant() {
     for (std::uint64_t token = 1; token < got_.size(); ++token) {
@@ -189,8 +201,10 @@ class PatternSearch {
     right_ = std::max(right_, right);
     top_ = std::max(top_, place.row);
     bottom_ = std::max(bottom_, below);
-    first_column_ = std::min(first_column_, x);
-    first_row_ = std::min(first_row_, place.row);
+    left_least_ = std::min(left_least_, x);
+    right_least_ = std::min(right_least_, right);
+    top_least_ = std::min(top_least_, place.row);
+    bottom_least_ = std::min(bottom_least_, below);
     note(columns_, last_column_, x);
   }
 
@@ -231,12 +245,20 @@ class PatternSearch {
     if (found_.size() == before && is_small(rim_, std::min(width, height)))
       add("only_rim", fmt::format("only the rim differs, {} px wide", rim_ + 1));
     const std::size_t rows = comparison_.rows.size();
-    if (first_row_ == 1 && 2 * rows >= static_cast<std::size_t>(height - 1) && height > 2) {
-      add("rows_after_first", "the first row is equal, those after it differ: what comes from the row above");
+    const ScanOrder order = stream_.shape.order;
+    const std::int64_t first_row = order == ScanOrder::kTurned ? bottom_least_ : top_least_;
+    const std::int64_t first_column = order == ScanOrder::kRaster ? left_least_ : right_least_;
+    if (first_row == 1 && 2 * rows >= static_cast<std::size_t>(height - 1) && height > 2) {
+      add("rows_after_first",
+          order == ScanOrder::kTurned
+              ? "the last row is equal, those above it differ: what comes from the row below"
+              : "the first row is equal, those after it differ: what comes from the row above");
     }
-    if (first_column_ == 1 && 2 * columns_.size() >= static_cast<std::size_t>(width - 1) && width > 2) {
+    if (first_column == 1 && 2 * columns_.size() >= static_cast<std::size_t>(width - 1) && width > 2) {
       add("columns_after_first",
-          "the first column is equal, those after it differ: what comes from the pixel to the left");
+          order == ScanOrder::kRaster
+              ? "the first column is equal, those after it differ: what comes from the pixel to the left"
+              : "the last column is equal, those before it differ: what comes from the pixel to the right");
     }
   }
 
@@ -276,14 +298,20 @@ class PatternSearch {
   std::uint64_t last_group_ = 0;
   // How far the differences reach from the tile's borders, px.
   std::int64_t rim_ = 0, left_ = 0, right_ = 0, top_ = 0, bottom_ = 0;
-  std::int64_t first_row_ = INT64_MAX, first_column_ = INT64_MAX;
+  // And how near they come.
+  std::int64_t left_least_ = INT64_MAX, right_least_ = INT64_MAX, top_least_ = INT64_MAX,
+               bottom_least_ = INT64_MAX;
 };
 
 }  // namespace
 
 std::vector<DifferencePattern> find_patterns(const TokenComparison& comparison, const TokenWords& expected,
                                              const TokenWords& got) {
-  return PatternSearch(comparison, expected, got).find();
+  std::vector<DifferencePattern> found = PatternSearch(comparison, expected, got).find();
+  if (!comparison.stream->is_tap) return found;
+  for (DifferencePattern& pattern : found)
+    pattern.text = words_of(comparison.stream->name) + ": " + pattern.text;
+  return found;
 }
 
 }  // namespace parallax

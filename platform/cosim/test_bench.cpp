@@ -294,7 +294,8 @@ constexpr std::uint64_t kDrain = 2000;  // cycles in which nothing more may come
 
 }  // namespace
 
-std::string test_bench(const VectorManifest& manifest) {
+std::string test_bench(const VectorManifest& whole) {
+  const VectorManifest manifest = whole.without_taps();
   // A frame's rows are looked ahead at most, all of it before a second pass.
   std::uint64_t frame = 0;
   for (const VectorStream& stream : manifest.streams) frame = std::max(frame, stream.frame_tokens);
@@ -355,7 +356,8 @@ std::string test_bench(const VectorManifest& manifest) {
                 facts);
 }
 
-std::string circuit_stub(const VectorManifest& manifest) {
+std::string circuit_stub(const VectorManifest& whole) {
+  const VectorManifest manifest = whole.without_taps();
   std::string text = fmt::format(
       "// The ports of a circuit in the place of the stage {0}, as {0}_tb.sv binds them; nothing is behind "
       "them.\n"

@@ -30,6 +30,17 @@ std::uint64_t usual_interval(const Schedule& schedule) {
   return most == firings.end() ? 1 : most->first;
 }
 
+VectorStream stream_of(const TokenPort& port) {
+  VectorStream stream;
+  stream.name = port.streams.front();
+  stream.also.assign(port.streams.begin() + 1, port.streams.end());
+  stream.port = port.name;
+  stream.is_input = port.is_input;
+  stream.file = stream.name + ".memh";
+  stream.shape = port.shape;
+  return stream;
+}
+
 }  // namespace
 
 // Lines on their way to a file.
@@ -104,12 +115,25 @@ void check_vectors(const Pipeline& pipeline, const MachineConfig& config, const 
   }
 }
 
-std::set<std::string> vector_file_names(const Machine& machine, const std::string& stage, bool dates) {
+void check_taps(const Machine& machine, const std::string& stage, const char* option) {
+  const Pipeline& pipeline = machine.pipeline();
+  if (!pipeline.taps(stage).empty()) return;
+  for (const std::string& other : pipeline.slots()) {
+    if (!pipeline.taps(other).empty())
+      throw UserError(fmt::format("{}: nothing is taken inside {}; of {} it is", option, stage, other));
+  }
+  throw UserError(fmt::format("{}: nothing is taken inside {}", option, stage));
+}
+
+std::set<std::string> vector_file_names(const Machine& machine, const std::string& stage,
+                                        const VectorExtras& extras) {
   std::set<std::string> names{VectorManifest::kFile, stage + "_tb.sv", stage + "_stub.sv"};
   for (const TokenPort& port : machine.pipeline().ports(stage)) {
     names.insert(port.streams.front() + ".memh");
-    if (dates) names.insert(port.streams.front() + ".dates");
+    if (extras.dates) names.insert(port.streams.front() + ".dates");
   }
+  if (!extras.taps) return names;
+  for (const TokenPort& tap : machine.pipeline().taps(stage)) names.insert(tap.name + ".memh");
   return names;
 }
 
@@ -127,25 +151,21 @@ VectorManifest stage_manifest(const Machine& machine, const std::string& stage) 
   manifest.interval = usual_interval(slot.stage->schedule());
   manifest.latency = slot.latency;
   manifest.look_ahead = slot.look_ahead;
-  for (const TokenPort& port : pipeline.ports(stage)) {
-    VectorStream stream;
-    stream.name = port.streams.front();
-    stream.also.assign(port.streams.begin() + 1, port.streams.end());
-    stream.port = port.name;
-    stream.is_input = port.is_input;
-    stream.file = stream.name + ".memh";
-    stream.shape = port.shape;
-    manifest.streams.push_back(stream);
-  }
+  for (const TokenPort& port : pipeline.ports(stage)) manifest.streams.push_back(stream_of(port));
   return manifest;
 }
 
-VectorCapture::VectorCapture(const Machine& machine, const std::string& stage, bool dates,
+VectorCapture::VectorCapture(const Machine& machine, const std::string& stage, const VectorExtras& extras,
                              OutputFolder& folder)
     : machine_(machine), manifest_(stage_manifest(machine, stage)) {
-  const std::vector<TokenPort> ports = machine.pipeline().ports(stage);
-  for (std::size_t i = 0; i < ports.size(); ++i)
-    ports_.push_back(std::make_unique<Port>(manifest_.streams[i], ports[i], dates, folder));
+  for (const TokenPort& port : machine.pipeline().ports(stage))
+    ports_.push_back(std::make_unique<Port>(stream_of(port), port, extras.dates, folder));
+  if (!extras.taps) return;
+  for (const TokenPort& tap : machine.pipeline().taps(stage)) {
+    VectorStream stream = stream_of(tap);
+    stream.is_tap = true;
+    ports_.push_back(std::make_unique<Port>(stream, tap, false, folder));
+  }
 }
 
 VectorCapture::~VectorCapture() = default;

@@ -15,11 +15,18 @@
 
 namespace parallax {
 
+/// What is written beside the tokens at the ports.
+struct VectorExtras {
+  bool dates = false;  ///< when each token passed
+  bool taps = false;   ///< what is taken inside the stage
+};
+
 /// Writes down the tokens that pass the ports of a stage, from before the simulation starts on.
 class VectorCapture {
  public:
-  /// After check_vectors(). `dates`: also when each token passed. All must outlive the capture.
-  VectorCapture(const Machine& machine, const std::string& stage, bool dates, OutputFolder& folder);
+  /// After check_vectors(), and check_taps() if these are wanted. All must outlive the capture.
+  VectorCapture(const Machine& machine, const std::string& stage, const VectorExtras& extras,
+                OutputFolder& folder);
   ~VectorCapture();
 
   /// After the simulation, of which `frames` frames had images: completes the files.
@@ -46,10 +53,14 @@ inline void check_vectors(const Machine& machine, const std::string& stage, cons
   check_vectors(machine.pipeline(), machine.config(), stage, option);
 }
 
+/// Throws UserError when nothing can be taken inside the stage, naming one where it can be.
+void check_taps(const Machine& machine, const std::string& stage, const char* option);
+
 /// How the files of vectors end, but for the manifest.
 inline constexpr std::array kVectorEndings{".memh", ".dates", "_tb.sv", "_stub.sv"};
 
 /// The files of a stage's vectors, with its test bench.
-std::set<std::string> vector_file_names(const Machine& machine, const std::string& stage, bool dates);
+std::set<std::string> vector_file_names(const Machine& machine, const std::string& stage,
+                                        const VectorExtras& extras);
 
 }  // namespace parallax

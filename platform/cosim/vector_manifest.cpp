@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 #include "platform/input/text_file.hpp"
 #include "platform/results/version.hpp"
@@ -14,7 +15,10 @@ namespace {
 
 constexpr std::size_t kWord = 64;
 constexpr const char* kFormat = "parallax vectors";
-constexpr std::size_t kMostBytes = 16u << 20;  // of a manifest
+constexpr std::size_t kMostBytes = 16u << 20;                       // of a manifest
+constexpr std::array kOrders{"raster", "right_to_left", "turned"};  // ScanOrder
+constexpr std::array kStarts{"cost", "clamp", "carry", "delay_line",
+                             "first_column"};  // as matching.path_start
 
 using Json = nlohmann::ordered_json;
 
@@ -32,7 +36,9 @@ Json stream_json(const VectorStream& stream) {
   Json out{{"name", stream.name},
            {"also", stream.also},
            {"port", stream.port},
-           {"direction", stream.is_input ? "in" : "out"},
+           {"direction", stream.is_input ? "in"
+                         : stream.is_tap ? "tap"
+                                         : "out"},
            {"file", stream.file}};
   if (!stream.dates_file.empty()) out["dates_file"] = stream.dates_file;
   out["width"] = shape.format.width().count();
@@ -42,9 +48,22 @@ Json stream_json(const VectorStream& stream) {
   out["tokens_per_pixel"] = shape.tokens_per_pixel;
   out["pixels_per_token"] = shape.pixels_per_token;
   if (shape.first_disparity) out["first_disparity"] = *shape.first_disparity;
+  if (stream.is_tap) out["order"] = kOrders[static_cast<std::size_t>(shape.order)];
+  if (shape.path) {
+    out["path"] = {{"dx", shape.path->dx},
+                   {"rows_up", shape.path->rows_up},
+                   {"start", kStarts[static_cast<std::size_t>(shape.path->start)]}};
+  }
   out["check"] = stream.check;
   out["fields"] = fields_json(shape.format);
   return out;
+}
+
+template <class E, std::size_t N>
+E enumerator(const char* what, const std::array<const char*, N>& names, const std::string& name) {
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) throw UserError(fmt::format("the {} '{}' is not known", what, excerpt(name)));
+  return static_cast<E>(found - names.begin());
 }
 
 VectorStream read_stream(const Json& in) {
@@ -53,6 +72,7 @@ VectorStream read_stream(const Json& in) {
   stream.also = in.at("also").get<std::vector<std::string>>();
   stream.port = in.at("port").get<std::string>();
   stream.is_input = in.at("direction").get<std::string>() == "in";
+  stream.is_tap = in.at("direction").get<std::string>() == "tap";
   stream.file = in.at("file").get<std::string>();
   stream.dates_file = in.value("dates_file", "");
   stream.tokens = in.at("tokens").get<std::uint64_t>();
@@ -69,6 +89,13 @@ VectorStream read_stream(const Json& in) {
   stream.shape.row_tokens = in.at("tokens_per_row").get<std::uint64_t>();
   stream.shape.tokens_per_pixel = std::max<std::uint64_t>(in.at("tokens_per_pixel").get<std::uint64_t>(), 1);
   stream.shape.pixels_per_token = std::max<std::uint64_t>(in.at("pixels_per_token").get<std::uint64_t>(), 1);
+  stream.shape.order = enumerator<ScanOrder>("order", kOrders, in.value("order", kOrders.front()));
+  if (in.contains("path")) {
+    const Json& path = in.at("path");
+    stream.shape.path =
+        PathStep{path.at("dx").get<int>(), path.at("rows_up").get<int>(),
+                 enumerator<PathStart>("start", kStarts, path.at("start").get<std::string>())};
+  }
   if (in.contains("first_disparity")) stream.shape.first_disparity = in.at("first_disparity").get<int>();
   return stream;
 }
@@ -114,17 +141,26 @@ ValuePlace VectorManifest::place(const VectorStream& stream, std::uint64_t token
   const std::uint64_t in_row = rest % shape.row_tokens;
   const std::size_t fields_of_pixel =
       std::max<std::size_t>(shape.format.all().size() / shape.pixels_per_token, 1);
-  const std::uint64_t pixel = shape.tokens_per_pixel > 1
-                                  ? in_row / shape.tokens_per_pixel
-                                  : in_row * shape.pixels_per_token + field / fields_of_pixel;
-  place.column =
-      static_cast<std::int64_t>(pixel) + tile_begins[std::min<std::size_t>(tile, tile_begins.size() - 1)];
+  auto pixel = static_cast<std::int64_t>(shape.tokens_per_pixel > 1
+                                             ? in_row / shape.tokens_per_pixel
+                                             : in_row * shape.pixels_per_token + field / fields_of_pixel);
+  if (shape.order == ScanOrder::kTurned) place.row = height - 1 - place.row;
+  if (shape.order != ScanOrder::kRaster) pixel = tile_width - 1 - pixel;
+  place.column = pixel + tile_begins[std::min<std::size_t>(tile, tile_begins.size() - 1)];
   if (shape.first_disparity) {
     const std::uint64_t group = in_row % shape.tokens_per_pixel;
     place.disparity =
         *shape.first_disparity + static_cast<std::int64_t>(group * shape.format.all().size() + field);
   }
   return place;
+}
+
+VectorManifest VectorManifest::without_taps() const {
+  VectorManifest out = *this;
+  out.streams.erase(std::remove_if(out.streams.begin(), out.streams.end(),
+                                   [](const VectorStream& stream) { return stream.is_tap; }),
+                    out.streams.end());
+  return out;
 }
 
 const VectorStream* VectorManifest::find(const std::string& name) const {

@@ -18,6 +18,7 @@ struct VectorStream {
   std::vector<std::string> also;  ///< further streams that get the same tokens (a fork)
   std::string port;               ///< "in_left"
   bool is_input = false;
+  bool is_tap = false;    ///< taken inside the stage; the port has its name
   std::string file;       ///< $readmemh, a token a line, first token first
   std::string dates_file; /**< a number a line: the cycle of the core's clock in which the token is read
                              (input) or written (output) in the machine; empty: not written */
@@ -53,11 +54,13 @@ struct VectorManifest {
   std::uint64_t interval = 0;           ///< cycles from one firing to the next, where nothing waits
   std::uint64_t latency = 0;            ///< cycles from reading to writing
   std::uint64_t look_ahead = 0;         ///< tokens of pixels that are read beyond the one that is written
-  std::vector<VectorStream> streams{};  ///< inputs first
+  std::vector<VectorStream> streams{};  ///< inputs first, taps last
 
   /// Tokens that pass in one go over the image, or over a tile of it where the stage knows rows.
   std::uint64_t pass_tokens(const VectorStream& stream) const;
   ValuePlace place(const VectorStream& stream, std::uint64_t token, std::size_t field) const;
+  /// The same without what is taken inside the stage.
+  VectorManifest without_taps() const;
   /// By the name of the stream, of one that gets the same tokens, or of the port; nullptr if there is none.
   const VectorStream* find(const std::string& name) const;
 };

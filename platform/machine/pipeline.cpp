@@ -21,6 +21,7 @@
 #include "modules/token_formats.hpp"
 #include "modules/uniqueness_stage.hpp"
 #include "platform/machine/engine_config.hpp"
+#include "platform/machine/matching_tap_ports.hpp"
 #include "tlm/unpacker.hpp"
 
 namespace parallax {
@@ -120,6 +121,7 @@ Pipeline::Pipeline(const sc_core::sc_module_name& name, const MachineConfig& con
       store_(matcher_store(config, context.width, context.height)),
       parameters_(algorithm_parameters(config)),
       wiring_(config.streams, context, replacements),
+      matching_taps_(std::make_unique<MatchingTaps>()),
       left_bursts_("left_bursts", context.dataflow, context.clock, context.clock,
                    engine_config(config.dma.left).fifo()),
       right_bursts_("right_bursts", context.dataflow, context.clock, context.clock,
@@ -238,6 +240,17 @@ TokenShape Pipeline::raster(const TokenFormat& format) const {
   return shape;
 }
 
+// The sums of the matcher.
+TokenShape Pipeline::cost_groups() const {
+  TokenShape costs(cost_group_format(config_.matching.parallelism,
+                                     summed_cost_bits(config_.matching, config_.census.code_bits()))
+                       .several(config_.matching.parallel_rows));
+  costs.row_tokens = context_.row_tokens() * config_.matching.groups(context_.pixels_per_token).of_token;
+  costs.tokens_per_pixel = static_cast<std::uint64_t>(config_.matching.iterations);
+  costs.first_disparity = config_.matching.disparity_offset;
+  return costs;
+}
+
 void Pipeline::connect_inputs(const EncodedMap& map, const TilePlan& tiles) {
   const DmaConfig& dma = config_.dma;
   const auto image = [&](const DmaPortConfig& port) {
@@ -267,12 +280,7 @@ void Pipeline::connect_matching() {
   const TokenShape code =
       raster(config_.census.enabled ? census_code_format(config_.census.code_bits()) : gray_format());
   const TokenShape disparity = raster(disparity_format());
-  TokenShape costs(cost_group_format(config_.matching.parallelism,
-                                     summed_cost_bits(config_.matching, config_.census.code_bits()))
-                       .several(config_.matching.parallel_rows));
-  costs.row_tokens = context_.row_tokens() * config_.matching.groups(context_.pixels_per_token).of_token;
-  costs.tokens_per_pixel = static_cast<std::uint64_t>(config_.matching.iterations);
-  costs.first_disparity = config_.matching.disparity_offset;
+  const TokenShape costs = cost_groups();
   wiring_.connect<CensusCode>("left_codes", code, {"census", "out_left"}, {"matching", "in_left"});
   wiring_.connect<CensusCode>("right_codes", code, {"census", "out_right"}, {"matching", "in_right"});
   for (const char* stage : {"subpixel", "uniqueness", "consistency"}) {
@@ -321,6 +329,14 @@ void Pipeline::bind(StreamOut<std::uint8_t>& left, StreamOut<std::uint8_t>& righ
   right(right_bursts_);
   map(map_bursts_);
   output(output_bursts_);
+}
+
+std::vector<TokenPort> Pipeline::taps(const std::string& slot) const {
+  if (slot != "matching") return {};
+  auto* const stage = dynamic_cast<MatchingStage*>(wiring_.slot(slot).content.module.get());
+  if (stage == nullptr) return {};
+  return matching_tap_ports(config_.matching, config_.census.code_bits(), cost_groups(), *stage,
+                            *matching_taps_);
 }
 
 bool Pipeline::is_matcher(const Stage& stage) const { return std::string("matching") == stage.basename(); }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "modules/map_codec.hpp"
+#include "modules/matching_taps.hpp"
 #include "platform/config/machine_config.hpp"
 #include "platform/machine/matcher_store.hpp"
 #include "platform/machine/stage_info.hpp"
@@ -63,6 +64,9 @@ class Pipeline final : public sc_core::sc_module {
   const SlotModule& slot(const std::string& name) const { return wiring_.slot(name).content; }
   /// The ports of what stands in a slot, inputs first; none of a slot that is not there.
   std::vector<TokenPort> ports(const std::string& slot) const { return wiring_.ports(slot); }
+  /// What can be taken inside of the stage in a slot, as it can at its ports (matching_tap_ports.hpp): of the
+  /// matcher.
+  std::vector<TokenPort> taps(const std::string& slot) const;
 
  private:
   struct Store {  // streams between the matcher's slots and a pair of memory ports
@@ -72,6 +76,7 @@ class Pipeline final : public sc_core::sc_module {
   };
 
   TokenShape raster(const TokenFormat& format) const;
+  TokenShape cost_groups() const;
   void place_inputs(const EncodedMap& map, const TilePlan& tiles);
   void place_matching();
   void place_filters(const TilePlan& tiles);
@@ -86,6 +91,7 @@ class Pipeline final : public sc_core::sc_module {
   const MatcherStore store_;
   AlgorithmParameters parameters_;  // of the last frame that was told
   Wiring wiring_;
+  const std::unique_ptr<MatchingTaps> matching_taps_;
   StageInfo last_filter_{};
   Stream<Disparity>* results_ = nullptr;
   std::vector<std::function<void(const MachineConfig* next)>> follow_;  // run-time parameters

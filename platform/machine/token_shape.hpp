@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "modules/path_step.hpp"
+#include "modules/scan_order.hpp"
 #include "modules/token_format.hpp"
 #include "tlm/tap.hpp"
 
@@ -18,8 +20,10 @@ struct TokenShape {
   std::vector<TapConfig::Run> runs{};
   /// Of a row of the image, or of a tile; 0: tokens that know no rows, as bytes of bursts.
   std::uint64_t row_tokens = 0;
-  std::uint64_t tokens_per_pixel = 1;  ///< groups of costs
-  std::uint64_t pixels_per_token = 1;  ///< fields name_0, name_1, ... of the format are neighbours of a row
+  std::uint64_t tokens_per_pixel = 1;    ///< groups of costs
+  std::uint64_t pixels_per_token = 1;    ///< fields name_0, name_1, ... of the format are neighbours of a row
+  ScanOrder order = ScanOrder::kRaster;  ///< of the pixels
+  std::optional<PathStep> path{};        ///< of the costs of one path
   /// Of costs: disparity (px) of a pixel's first field; each further field is one more.
   std::optional<int> first_disparity{};
 

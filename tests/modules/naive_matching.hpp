@@ -91,8 +91,12 @@ inline NaivePredecessor naive_predecessor(const MatchingConfig& config, NaivePat
   return {false, 0, 0};
 }
 
-inline void naive_add_path(const MatchingConfig& config, NaivePath path, const Grid<int>& costs,
-                           Grid<Cost>& sums) {
+/// In the order of their bits.
+inline constexpr NaivePath kNaivePaths[] = {{kPathW, -1, 0},  {kPathNW, -1, -1}, {kPathN, 0, -1},
+                                            {kPathNE, 1, -1}, {kPathE, 1, 0},    {kPathSW, -1, 1},
+                                            {kPathS, 0, 1},   {kPathSE, 1, 1}};
+
+inline Grid<int> naive_path_costs(const MatchingConfig& config, NaivePath path, const Grid<int>& costs) {
   const int w = costs.width;
   const int h = costs.height;
   Grid<int> along(w, h, costs.depth);
@@ -120,19 +124,20 @@ inline void naive_add_path(const MatchingConfig& config, NaivePath path, const G
         value = config.path_overflow == PathOverflow::kWrap ? value % values : std::min(value, values - 1);
       }
       along.at(x, y, k) = value;
-      sums.at(x, y, k) = static_cast<Cost>(sums.at(x, y, k) + value);
     }
   }
+  return along;
 }
 
 inline Grid<Cost> naive_matching(const MatchingConfig& config, int code_bits, const Grid<CensusCode>& left,
                                  const Grid<CensusCode>& right) {
   const Grid<int> costs = naive_costs(config, code_bits, left, right);
   Grid<Cost> sums(left.width, left.height, costs.depth);
-  const NaivePath paths[] = {{kPathW, -1, 0}, {kPathNW, -1, -1}, {kPathN, 0, -1}, {kPathNE, 1, -1},
-                             {kPathE, 1, 0},  {kPathSW, -1, 1},  {kPathS, 0, 1},  {kPathSE, 1, 1}};
-  for (const NaivePath& path : paths) {
-    if (config.paths & path.bit) naive_add_path(config, path, costs, sums);
+  for (const NaivePath& path : kNaivePaths) {
+    if ((config.paths & path.bit) == 0) continue;
+    const Grid<int> along = naive_path_costs(config, path, costs);
+    for (std::size_t i = 0; i < sums.data.size(); ++i)
+      sums.data[i] = static_cast<Cost>(sums.data[i] + along.data[i]);
   }
   for (Cost& sum : sums.data) sum = static_cast<Cost>(sum / (1 << config.sum_shift));
   return sums;
