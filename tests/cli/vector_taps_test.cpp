@@ -204,7 +204,7 @@ TEST_F(VectorTaps, BeginWithTheMatchingCosts) {
 
 TEST_F(VectorTaps, OfTilesAreTileByTile) {
   const std::string tiles =
-      "--taps --size 64x16 -s tiles.limit=40 -s tiles.left_margin=8 -s tiles.right_margin=8 ";
+      "--taps --size 128x16 -s tiles.limit=96 -s tiles.left_margin=8 -s tiles.right_margin=8 ";
   const json manifest = make(tiles + kEight);
   ASSERT_GT(manifest.at("size").at("tile_begins").size(), 1U);
   std::uint64_t tokens = 0;
@@ -212,7 +212,9 @@ TEST_F(VectorTaps, OfTilesAreTileByTile) {
     if (each.at("name") == "costs_subpixel") tokens = each.at("tokens");
   }
   for (const json& each : manifest.at("streams")) {
-    if (each.at("direction") == "tap") EXPECT_EQ(each.at("tokens"), tokens);
+    if (each.at("direction") == "tap") {
+      EXPECT_EQ(each.at("tokens"), tokens);
+    }
   }
 }
 
@@ -235,7 +237,7 @@ TEST_F(VectorTaps, WhereAPathGoesWrongIsTold) {
   for (int y = 1; y < kHeight; ++y) {
     for (int x = 1; x < kWidth; ++x) {
       const int behind = std::min({(y - 1) % 5, (x - 1) % 5, 4});
-      for (int k = pixel - 1 - behind; k < pixel; ++k) path[at(x, y, k)] ^= 1;
+      for (int k = pixel - 1 - behind; k < pixel; ++k) path[at(x, y, k)] ^= 1 + (x + y) % 3;
     }
   }
   write("wrong.memh", path, 9);
@@ -263,7 +265,8 @@ TEST_F(VectorTaps, OfASecondPassArePlacedInTheImage) {
   make(std::string("--taps ") + kEight);
   Values path = values("v/path_se.memh", 9);
   constexpr std::size_t pixel = kParallelism * kIterations;
-  for (std::size_t i = pixel * kWidth; i < path.size() / 2; i += pixel) path[i + 2] ^= 1;
+  for (std::size_t i = pixel * kWidth; i < path.size() / 2; i += pixel)
+    path[i + 2] ^= 1 + static_cast<int>(i / pixel % 3);
   write("wrong.memh", path, 9);
   const json tree = compare("path_se=wrong.memh");
   EXPECT_EQ(tree.at("first_difference").at("row"), kHeight - 2);
@@ -345,10 +348,10 @@ TEST_F(VectorTaps, WhatCannotBeAskedFor) {
             "rows, not as they lie on the wires; vectors of costs need 1\n");
   make();
   EXPECT_EQ(refusal("compare --vectors v --dump path_s=x"),
-            "--dump path_s=x: matching has no stream 'path_s'; the nearest is path_n\n");
+            "--dump path_s=x: matching has no stream 'path_s'; the nearest is path_w\n");
   EXPECT_EQ(refusal("compare --vectors v --dump v/path_n.memh --signals path_x.data=x"),
-            "--signals path_x.data=x: matching has no stream 'path_x'; the nearest is path_n\n");
-  EXPECT_EQ(refusal("compare --vectors v --dump v/path_n.memh --signals path_n.date=x"),
+            "--signals path_x.data=x: matching has no stream 'path_x'; the nearest is path_w\n");
+  EXPECT_EQ(refusal("compare --vectors v --dump path_n=v/path_n.memh --signals path_n.date=x"),
             "--signals: 'path_n.date=x' is not data=NAME, valid=NAME, ready=NAME or clock=NAME\n");
   std::string manifest = program_.read("v/manifest.json");
   const std::string whole = manifest;
