@@ -65,7 +65,7 @@ void StageValues::push(std::size_t port, const std::vector<std::uint64_t>& bits)
 
 bool StageValues::pop(std::size_t port, std::vector<std::uint64_t>& bits) {
   if (!ends_[port]->front(bits)) return false;
-  ends_[port]->pop();
+  ends_[port]->pop(false);
   return true;
 }
 

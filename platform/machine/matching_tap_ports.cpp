@@ -41,10 +41,15 @@ std::vector<TokenPort> matching_tap_ports(const MatchingConfig& config, int code
   const auto add = [&](const std::string& name, int bits, TokenShape shape, MatchingTaps::Take& at) {
     shape.format =
         cost_group_format(static_cast<std::size_t>(config.parallelism), static_cast<std::size_t>(bits));
-    all.push_back({name, false, {name}, shape, [shape, &at, &stage, &taps](const TokenTap::Take& take) {
+    all.push_back({name,
+                   false,
+                   {name},
+                   shape,
+                   [shape, &at, &stage, &taps](const TokenTap::Take& take) {
                      stage.open(taps);
                      return std::make_unique<GroupTap>(at, shape, take);
-                   }});
+                   },
+                   {}});
   };
   add("pixel_costs", pixel_cost_bits(config, code_bits), costs, taps.pixel_costs);
   for (std::size_t i = 0; i < taps.paths.size(); ++i) {

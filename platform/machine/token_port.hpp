@@ -41,7 +41,7 @@ struct TokenPort {
   /// To be called before the simulation starts.
   std::function<std::unique_ptr<TokenTap>(const TokenTap::Take& take)> tap;
   /// The other end of its (first) stream, in place of who takes the values there: with is_input() where the
-  /// port is an output.
+  /// port is an output. Empty: inside a stage, where nobody else can stand.
   std::function<std::unique_ptr<CircuitEnd>()> opposite;
 };
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <ostream>
 #include <string>
@@ -58,9 +59,78 @@ TEST(CircuitRun, StallsChangeDatesAlone) {
   const Program program;
   const Outcome outcome = program(kMachine + census(program) + "--circuit-stall 400 --circuit-seed 5 --json");
   EXPECT_EQ(outcome.code, 0) << outcome.err << outcome.out;
-  const nlohmann::json circuit = nlohmann::json::parse(outcome.out.substr(outcome.out.rfind("\n{") + 1));
+  const nlohmann::json circuit = nlohmann::json::parse(outcome.out).at("circuits").at(0);
   EXPECT_TRUE(circuit.at("as_model").get<bool>());
   EXPECT_GT(circuit.at("streams").at(0).at("latest").at("cycles").get<int>(), 0);
+}
+
+// Two of which the second has a stage between that works on whole rows.
+class CircuitPair : public ::testing::Test {
+ protected:
+  // The options of both, the second one first.
+  std::string pair(const std::string& unpack_fault, const std::string& census_fault) const {
+    std::ifstream in(source_path("tests/package/own_circuit.sv"));
+    std::string text{std::istreambuf_iterator<char>(in), {}};
+    if (!unpack_fault.empty()) {
+      const std::string right = "out_tokens_data = ";
+      text.insert(text.find(right) + right.size(), unpack_fault);
+    }
+    std::ofstream(program / "unpack.sv") << text;
+    return census(program, census_fault) + "--circuit unpack_left=unpack.sv ";
+  }
+  nlohmann::json circuits(const Outcome& outcome) const {
+    return nlohmann::json::parse(outcome.out).at("circuits");
+  }
+  static bool equal(const nlohmann::json& circuit) { return circuit.at("as_model").get<bool>(); }
+
+  const Program program;
+};
+
+TEST_F(CircuitPair, IsAsTheModelUnderStalls) {
+  const Outcome outcome = program(kMachine + pair("", "") + "--circuit-stall 300 --json");
+  EXPECT_EQ(outcome.code, 0) << outcome.err << outcome.out;
+  const nlohmann::json told = circuits(outcome);
+  ASSERT_EQ(told.size(), 2U);
+  EXPECT_EQ(told[0].at("stage"), "unpack_left");  // upstream first
+  EXPECT_EQ(told[1].at("stage"), "census");
+  EXPECT_TRUE(equal(told[0]) && equal(told[1])) << told.dump();
+}
+
+TEST_F(CircuitPair, TheSecondGetsWhatTheFirstMakes) {
+  ASSERT_EQ(program(std::string(kMachine) + "--out model -q").code, 0);
+  const Outcome outcome = program(kMachine + pair("~", "") + "--json --out wrong");
+  EXPECT_EQ(outcome.code, 1);
+  const nlohmann::json told = circuits(outcome);
+  EXPECT_FALSE(equal(told[0]));
+  EXPECT_TRUE(equal(told[1])) << "it does as the model does with these tokens: " << told[1].dump();
+  EXPECT_NE(program.read("model/disparity.png"), program.read("wrong/disparity.png"));
+}
+
+TEST_F(CircuitPair, AsShadowsEachStandsAlone) {
+  ASSERT_EQ(program(std::string(kMachine) + "--out model -q").code, 0);
+  const Outcome outcome =
+      program(kMachine + pair("~", "FAULT_BORDER") + "--circuit-shadow --json --out beside");
+  EXPECT_EQ(outcome.code, 1);
+  const nlohmann::json told = circuits(outcome);
+  EXPECT_EQ(told[0].at("streams").at(0).at("patterns").at(0).at("name"), "inverted");
+  EXPECT_EQ(told[1].at("streams").at(0).at("patterns").at(0).at("name"), "only_rim");
+  EXPECT_EQ(program.read("model/disparity.png"), program.read("beside/disparity.png"));
+}
+
+TEST(CircuitRun, BehindOneThatIsGivenUpTheNextIsLeftOut) {
+  const Program program;
+  std::ofstream(program / "none.sv")
+      << "module none(input clk, input rst, input [11:0] in_disparity_data, input in_disparity_valid,\n"
+         "  output in_disparity_ready, output [11:0] out_disparity_data, output out_disparity_valid,\n"
+         "  input out_disparity_ready);\n  assign in_disparity_ready = out_disparity_ready;\n"
+         "  assign out_disparity_valid = in_disparity_valid, out_disparity_data = in_disparity_data;\n"
+         "endmodule\n";
+  const Outcome outcome =
+      program(kMachine + census(program, "FAULT_HANGS") + "--circuit noise_reduction=none.sv");
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_EQ(count(outcome.out, "circuit             none is left out: a circuit before it was given up\n"),
+            1U)
+      << outcome.err << outcome.out;
 }
 
 struct Fault {
@@ -126,6 +196,10 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{"Verilog", "--circuit census=wrong.sv", "verilator: %Error: wrong.sv:1:"},
         Refused{"Width", "--circuit noise_reduction=narrow.sv",
                 "circuit narrow: pin in_disparity_data has 8 bits; as in_disparity.data it must have 12"},
+        Refused{"Twice", "--circuit census=a.sv --circuit census=b.sv",
+                "--circuit: census is given twice; one circuit stands for it"},
+        Refused{"Nothing", "--circuit-latency 3", "--circuit-latency requires --circuit"},
+        Refused{"NoShadow", "--circuit-shadow", "--circuit-shadow requires --circuit"},
         Refused{"Parameter", "--circuit census=wrong.sv --circuit-parameter WIDTH",
                 "--circuit-parameter: 'WIDTH' is not NAME=VALUE, as WIDTH=640"}),
     [](const auto& each) { return std::string(each.param.name); });
