@@ -19,6 +19,7 @@
 #include "platform/commands/run_images.hpp"
 #include "platform/commands/simulation.hpp"
 #include "platform/config/preset.hpp"
+#include "platform/cosim/circuit_stub.hpp"
 #include "platform/cosim/test_bench.hpp"
 #include "platform/cosim/vector_capture.hpp"
 #include "platform/input/run_input.hpp"

@@ -8,14 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "platform/cosim/circuit_stub.hpp"
 #include "platform/cosim/template_text.hpp"
 
 namespace parallax {
 namespace {
-
-std::string range(const VectorStream& stream) {
-  return fmt::format("[{}:0]", stream.shape.format.width().count() - 1);
-}
 
 std::string digits_of(const std::string& check, std::size_t width) {
   return fmt::format("{}'h{}", width, check);
@@ -29,7 +26,7 @@ Replacements words_of(const VectorManifest& manifest, const VectorStream& stream
   return {{"port", stream.port},
           {"stream", stream.name},
           {"file", stream.file},
-          {"range", range(stream)},
+          {"range", bus_range(stream)},
           {"width", std::to_string(width)},
           {"rotated",
            width == 1 ? stream.port + "_sum"
@@ -47,8 +44,9 @@ constexpr const char* kHead =
 //   $ iverilog -g2012 -o sim @stage@_tb.sv @stage@.sv && vvp sim
 //   $ verilator --binary --timing -Wno-fatal --top-module @stage@_tb @stage@_tb.sv @stage@.sv && obj_dir/V@stage@_tb
 // The circuit is a module @stage@ with the ports of @stage@_stub.sv; -DDUT=NAME takes another module.
-// +seed=N: other stalls. +stall=N: each side waits in N of 256 cycles (64). +timeout=N: cycles without a
-// token until it gives up (@timeout@). +dump: writes what came out, for parallax compare. +vcd: writes waves.
+// +seed=N: other stalls. +stall=N: each side waits in N of 256 cycles (64; 0: never). +pause=N: now and then for N cycles,
+// so that pipelines fill up and run dry (256). +timeout=N: cycles without a token until it gives up (@timeout@).
+// +dump: writes what came out, for parallax compare. +vcd: writes waves.
 // It ends with a line that begins with PASS, or with FAIL and an exit code that is not 0.
 `timescale 1ns / 1ps
 `default_nettype none
@@ -62,6 +60,7 @@ module @stage@_tb;
   always #5 clk = ~clk;
 
   integer stall;
+  integer pause;
   integer seed;
   integer timeout;
   integer dump;
@@ -80,9 +79,19 @@ module @stage@_tb;
   endfunction
 )";
 
-constexpr const char* kInput = R"(
+constexpr const char* kStalls = R"(
   // @stream@
-  reg @range@ @port@_words [0:@tokens@ - 1];
+  reg [31:0] @port@_random;
+  integer @port@_pause = 0;  // cycles of it that are left
+  wire @port@_goes = @port@_pause == 0 && {24'd0, @port@_random[31:24]} >= stall;
+  always @(posedge clk) begin
+    @port@_random <= shuffled(@port@_random);
+    if (@port@_pause != 0) @port@_pause <= @port@_pause - 1;
+    else if (stall != 0 && @port@_random[10:0] == 11'd0) @port@_pause <= pause;
+  end
+)";
+
+constexpr const char* kInput = R"(  reg @range@ @port@_words [0:@tokens@ - 1];
   reg @range@ @port@_sum;
   reg @range@ @port@_data;
   reg @port@_valid = 1'b0;
@@ -91,9 +100,7 @@ constexpr const char* kInput = R"(
   wire @port@_ready;
   integer @port@_next = 0;   // token to be offered
   integer @port@_taken = 0;  // tokens that the circuit has
-  reg [31:0] @port@_random;
   always @(posedge clk) begin
-    @port@_random <= shuffled(@port@_random);
     if (!rst) begin
       if (@port@_ready !== 1'b0 && @port@_ready !== 1'b1) begin
         if (faults < 10) $display("@port@_ready is unknown in cycle %0d", cycle);
@@ -101,7 +108,7 @@ constexpr const char* kInput = R"(
       end
       if (@port@_valid && @port@_ready === 1'b1) @port@_taken <= @port@_taken + 1;
       if (!@port@_valid || @port@_ready === 1'b1) begin
-        if (@port@_next < @tokens@ && {24'd0, @port@_random[31:24]} >= stall) begin
+        if (@port@_next < @tokens@ && @port@_goes) begin
           @port@_valid <= 1'b1;
           @port@_data <= @port@_words[@port@_next];
           @port@_first <= @port@_next % @pass@ == 0;
@@ -118,9 +125,7 @@ constexpr const char* kInput = R"(
   end
 )";
 
-constexpr const char* kOutput = R"(
-  // @stream@
-  reg @range@ @port@_words [0:@tokens@ - 1];
+constexpr const char* kOutput = R"(  reg @range@ @port@_words [0:@tokens@ - 1];
   reg @range@ @port@_sum;
   wire @range@ @port@_data;
   wire @port@_valid;
@@ -131,11 +136,9 @@ constexpr const char* kOutput = R"(
   reg @port@_held = 1'b0;  // offered and not taken, in the cycle before
   reg @range@ @port@_offered;
   reg @range@ @port@_expected;
-  reg [31:0] @port@_random;
   always @(posedge clk) begin
-    @port@_random <= shuffled(@port@_random);
     if (!rst) begin
-      @port@_ready <= {24'd0, @port@_random[31:24]} >= stall;
+      @port@_ready <= @port@_goes;
       if (@port@_valid !== 1'b0 && @port@_valid !== 1'b1) begin
         if (faults < 10) $display("@port@_valid is unknown in cycle %0d", cycle);
         faults = faults + 1;
@@ -179,6 +182,7 @@ constexpr const char* kBegin = R"(
   initial begin
     if (!$value$plusargs("seed=%d", seed)) seed = 1;
     if (!$value$plusargs("stall=%d", stall)) stall = 64;
+    if (!$value$plusargs("pause=%d", pause)) pause = 256;
     if (!$value$plusargs("timeout=%d", timeout)) timeout = @timeout@;
     dump = 0;
     if ($test$plusargs("dump")) dump = 1;
@@ -222,7 +226,7 @@ constexpr const char* kProgress = R"(  end
 endmodule
 )";
 
-std::string all(const VectorManifest& manifest, const char* text,
+std::string all(const VectorManifest& manifest, const std::string& text,
                 const std::function<bool(const VectorStream&)>& which, const std::string& between = "") {
   std::string out;
   for (const VectorStream& stream : manifest.streams) {
@@ -260,7 +264,7 @@ std::string outputs(const VectorManifest& manifest) {
   std::string out;
   for (const VectorStream& stream : manifest.streams) {
     if (stream.is_input) continue;
-    out += filled(filled(kOutput, words_of(manifest, stream)), place_of(stream));
+    out += filled(filled(std::string(kStalls) + kOutput, words_of(manifest, stream)), place_of(stream));
   }
   return out;
 }
@@ -273,21 +277,6 @@ std::string loads(const VectorManifest& manifest) {
     salt = salt * 1664525U + 1013904223U;
   }
   return out;
-}
-
-std::string fields_text(const VectorStream& stream) {
-  constexpr std::size_t kShown = 8;
-  const std::vector<TokenField>& fields = stream.shape.format.all();
-  std::string text;
-  for (std::size_t i = 0; i < fields.size(); ++i) {
-    if (fields.size() > kShown && i == kShown / 2) {
-      text += "  //   ...\n";
-      i = fields.size() - 1;
-    }
-    text += fmt::format("  //   [{}:{}] {}{}\n", fields[i].low + fields[i].width - 1, fields[i].low,
-                        fields[i].name, fields[i].is_signed ? ", signed" : "");
-  }
-  return text;
 }
 
 constexpr std::uint64_t kDrain = 2000;  // cycles in which nothing more may come out
@@ -351,47 +340,9 @@ std::string test_bench(const VectorManifest& whole) {
                                        ",\n    .@port@_data(@port@_data),\n"
                                        "    .@port@_valid(@port@_valid),\n    .@port@_ready(@port@_ready)",
                                        output)}});
-  return filled(kHead + all(manifest, kInput, input) + outputs(manifest) + begin + loads(manifest) +
-                    all(manifest, kDump, output) + end,
+  return filled(kHead + all(manifest, std::string(kStalls) + kInput, input) + outputs(manifest) + begin +
+                    loads(manifest) + all(manifest, kDump, output) + end,
                 facts);
-}
-
-std::string circuit_stub(const VectorManifest& whole) {
-  const VectorManifest manifest = whole.without_taps();
-  std::string text = fmt::format(
-      "// The ports of a circuit in the place of the stage {0}, as {0}_tb.sv binds them; nothing is behind "
-      "them.\n"
-      "// A token is taken in a cycle in which valid and ready are both 1 at the rising edge of clk. rst is "
-      "high, and synchronous.\n"
-      "// first: the first token of a frame, or of a tile of it; last: the last one of a row. The model: {1} "
-      "cycle{2} from one "
-      "token to the next, {3} from\n"
-      "// reading to writing, {4} tokens of pixels read beyond the one written.\n"
-      "`timescale 1ns / 1ps\n`default_nettype none\n\nmodule {0} (\n  input wire clk,\n  input wire rst",
-      manifest.stage, manifest.interval, manifest.interval == 1 ? "" : "s", manifest.latency,
-      manifest.look_ahead);
-  for (const VectorStream& stream : manifest.streams) {
-    text += ",\n\n  // " + stream.name;
-    for (const std::string& other : stream.also) text += ", " + other;
-    text += "\n" + fields_text(stream);
-    const char* const forward = stream.is_input ? "input" : "output";
-    const char* const backward = stream.is_input ? "output" : "input";
-    text += fmt::format("  {} wire {} {}_data,\n  {} wire {}_valid,\n", forward, range(stream), stream.port,
-                        forward, stream.port);
-    if (stream.is_input)
-      text += fmt::format("  input wire {0}_first,\n  input wire {0}_last,\n", stream.port);
-    text += fmt::format("  {} wire {}_ready", backward, stream.port);
-  }
-  text += "\n);\n";
-  for (const VectorStream& stream : manifest.streams) {
-    if (stream.is_input) {
-      text += fmt::format("  assign {}_ready = 1'b0;\n", stream.port);
-    } else {
-      text += fmt::format("  assign {0}_data = {1}'d0;\n  assign {0}_valid = 1'b0;\n", stream.port,
-                          stream.shape.format.width().count());
-    }
-  }
-  return text + "endmodule\n";
 }
 
 }  // namespace parallax

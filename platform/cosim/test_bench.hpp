@@ -8,10 +8,8 @@
 namespace parallax {
 
 /// SystemVerilog: a test bench that feeds a circuit with the vectors of a stage, takes its results under
-/// random stalls on both sides, and compares them. It says the same in Icarus Verilog and Verilator.
+/// random stalls on both sides, short and long ones, and compares them. It says the same in Icarus Verilog
+/// and Verilator.
 std::string test_bench(const VectorManifest& manifest);
-
-/// SystemVerilog: the port list that the test bench expects, with no circuit behind it.
-std::string circuit_stub(const VectorManifest& manifest);
 
 }  // namespace parallax
