@@ -3,6 +3,7 @@
 // sides, every date of every FIFO, every value.
 #include <CensusCircuit.h>
 #include <MatchingCircuit.h>
+#include <MedianCircuit.h>
 #include <NoiseReductionCircuit.h>
 #include <RectificationCircuit.h>
 #include <SlowCensusCircuit.h>
@@ -228,19 +229,27 @@ TEST(ReferenceDatesRtl, Rectification) {
             "");
 }
 
-TEST(ReferenceDatesRtl, NoiseReduction) {
-  EXPECT_EQ(
-      against_stage<NoiseReductionCircuit>(
-          "--stage noise_reduction -d 32", {"interpolated", "smoothed"},
-          [](NoiseReductionCircuit& top) -> std::vector<CircuitPort> {
-            return {circuit_input(top.in_disparity_data, top.in_disparity_valid, top.in_disparity_ready),
-                    circuit_output(top.out_disparity_data, top.out_disparity_valid, top.out_disparity_ready)};
-          },
-          [](const char* name, const StageContext& context) {
-            return std::make_unique<NoiseReductionStage>(name, NoiseReductionConfig{}, StageTiming{1, 8},
-                                                         context);
-          }),
-      "");
+template <class Top>
+std::string noise_reduction(const std::string& vectors, const NoiseReductionConfig& config) {
+  return against_stage<Top>(
+      "--stage noise_reduction -d 32 " + vectors, {"interpolated", "smoothed"},
+      [](Top& top) -> std::vector<CircuitPort> {
+        return {circuit_input(top.in_disparity_data, top.in_disparity_valid, top.in_disparity_ready),
+                circuit_output(top.out_disparity_data, top.out_disparity_valid, top.out_disparity_ready)};
+      },
+      [&](const char* name, const StageContext& context) {
+        return std::make_unique<NoiseReductionStage>(name, config, StageTiming{1, 8}, context);
+      });
+}
+
+TEST(ReferenceDatesRtl, NoiseReduction) { EXPECT_EQ(noise_reduction<NoiseReductionCircuit>("", {}), ""); }
+
+TEST(ReferenceDatesRtl, Median) {
+  NoiseReductionConfig config;
+  config.kind = NoiseReductionKind::kMedian3x3;
+  EXPECT_EQ(noise_reduction<MedianCircuit>("-s noise_reduction.kind=median_3x3 -s subpixel.mask_border=false",
+                                           config),
+            "");
 }
 
 }  // namespace reference_dates_rtl_test

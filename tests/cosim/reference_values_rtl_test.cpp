@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <random>
 #include <string>
 
 #include "tests/cli/program.hpp"
@@ -14,8 +15,11 @@ namespace reference_values_rtl_test {
 
 struct Circuit {
   const char* stage;
-  const char* vectors;     // options of parallax vectors
-  const char* parameters;  // of the circuit
+  std::string vectors;      // options of parallax vectors
+  const char* parameters;   // of the circuit
+  const char* module = "";  // where it has another name than the stage
+
+  std::string dut() const { return fmt::format("-D'DUT={} #({})'", *module ? module : stage, parameters); }
 };
 
 struct Said {
@@ -40,9 +44,8 @@ std::string in_icarus(const Circuit& circuit, std::initializer_list<const char*>
   const Program program;
   std::string found = written_vectors(program, circuit);
   const Said compiled =
-      shell(program,
-            fmt::format("iverilog -g2012 -Wall -s {0}_tb -y '{1}' -Y .sv -D'DUT={0} #({2})' -o sim {0}_tb.sv",
-                        circuit.stage, source_path("modules/rtl"), circuit.parameters));
+      shell(program, fmt::format("iverilog -g2012 -Wall -s {0}_tb -y '{1}' -Y .sv {2} -o sim {0}_tb.sv",
+                                 circuit.stage, source_path("modules/rtl"), circuit.dut()));
   if (compiled.code != 0 || !compiled.text.empty())
     found += compiled.text + "it does not compile, or warns\n";
   for (const char* const argument : arguments) {
@@ -169,28 +172,59 @@ TEST(ReferenceValuesRtl, NoiseReduction) {
       "");
 }
 
+// Two images that have nothing in common: disparities, and invalid ones, as random as they become.
+std::string noise_pair(const Program& program) {
+  std::mt19937 random(5);
+  for (const char* const name : {"noise_left.pgm", "noise_right.pgm"}) {
+    std::string text = "P5 32 16 255\n";
+    for (int i = 0; i < 32 * 16; ++i) text += static_cast<char>(random() >> 24);
+    program.folder().write(name, text);
+  }
+  return "--left noise_left.pgm --right noise_right.pgm -d 32";
+}
+
+constexpr const char* kMedian = "-s noise_reduction.kind=median_3x3 -s subpixel.mask_border=false";
+
+TEST(ReferenceValuesRtl, Median) {
+  EXPECT_EQ(in_icarus({"noise_reduction", fmt::format("{} {}", kSmall, kMedian), ".WIDTH(64), .HEIGHT(32)",
+                       "median_3x3"}),
+            "");
+  EXPECT_EQ(in_icarus({"noise_reduction",
+                       fmt::format("--size 32x48 -d 32 -s noise_reduction.latency=3 "
+                                   "-s noise_reduction.interval=2 {}",
+                                   kMedian),
+                       ".WIDTH(32), .HEIGHT(48), .LATENCY(3), .INTERVAL(2)", "median_3x3"}),
+            "");
+}
+
 // Both simulators take the same cycles; Verilator finds nothing to warn of in the circuits.
-TEST(ReferenceValuesRtl, MatchingInVerilator) {
-  const Circuit circuit{"matching", "--size 32x16 -s matching.parallelism=4 -s matching.iterations=3",
-                        ".WIDTH(32), .HEIGHT(16), .P(4), .ITERATIONS(3)"};
-  const Program program;
+void expect_both_simulators_pass(const Program& program, const Circuit& circuit) {
   ASSERT_EQ(written_vectors(program, circuit), "");
-  const std::string folder = source_path("modules/rtl");
-  const std::string dut = fmt::format("-D'DUT={} #({})'", circuit.stage, circuit.parameters);
-  const Said built = shell(
-      program,
-      fmt::format(
-          "iverilog -g2012 -s matching_tb -y '{0}' -Y .sv {1} -o sim matching_tb.sv && verilator "
-          "--binary --timing -CFLAGS -O0 --top-module matching_tb -y '{0}' {1} matching_tb.sv >log 2>&1 "
-          "|| {{ cat log; exit 9; }}",
-          folder, dut));
+  const Said built =
+      shell(program,
+            fmt::format("iverilog -g2012 -s {0}_tb -y '{1}' -Y .sv {2} -o sim {0}_tb.sv && verilator "
+                        "--binary --timing -CFLAGS -O0 --top-module {0}_tb -y '{1}' {2} {0}_tb.sv >log 2>&1 "
+                        "|| {{ cat log; exit 9; }}",
+                        circuit.stage, source_path("modules/rtl"), circuit.dut()));
   ASSERT_EQ(built.code, 0) << built.text;
   for (const char* const arguments : {"+stall=0", "+seed=5 +stall=100"}) {
     const Said a = shell(program, fmt::format("vvp -n sim {}", arguments));
-    const Said b = shell(program, fmt::format("obj_dir/Vmatching_tb {}", arguments));
+    const Said b = shell(program, fmt::format("obj_dir/V{}_tb {}", circuit.stage, arguments));
     EXPECT_EQ(a.text.rfind("PASS ", 0), 0U) << a.text;
     EXPECT_EQ(a.text.substr(0, a.text.find('\n')), b.text.substr(0, b.text.find('\n')));
   }
+}
+
+TEST(ReferenceValuesRtl, MatchingInVerilator) {
+  expect_both_simulators_pass(Program(),
+                              {"matching", "--size 32x16 -s matching.parallelism=4 -s matching.iterations=3",
+                               ".WIDTH(32), .HEIGHT(16), .P(4), .ITERATIONS(3)"});
+}
+
+TEST(ReferenceValuesRtl, MedianOfNoiseInVerilator) {
+  const Program program;
+  expect_both_simulators_pass(program, {"noise_reduction", fmt::format("{} {}", noise_pair(program), kMedian),
+                                        ".WIDTH(32), .HEIGHT(16)", "median_3x3"});
 }
 
 }  // namespace reference_values_rtl_test

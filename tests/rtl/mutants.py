@@ -5,23 +5,37 @@ import collections
 
 Mutant = collections.namedtuple("Mutant", "circuit file old new pattern place equivalent")
 
+# Where a circuit has not the name of its stage.
+STAGES = {"median_3x3": "noise_reduction"}
+
 # circuit: for each set of vectors the options of parallax vectors, and the parameters. What one does not meet, another does: costs that
-# are equal, offsets that leave the image, disparities at its border.
+# are equal, all of them or nearly, offsets that leave the image, disparities at its border.
+FLAT = "--left flat.pgm --right flat.pgm"  # images.py
+NOISE = "--left noise_left.pgm --right noise_right.pgm"
 TWELVE = "-s matching.parallelism=4 -s matching.iterations=3"
+MEDIAN = "-s noise_reduction.kind=median_3x3 -s subpixel.mask_border=false"
 SIZE = ".WIDTH(32), .HEIGHT(16)"
 BENCHES = {
     "census": [("--size 32x16 -d 32 --frames 2", SIZE)],
     "matching": [(f"--size 32x16 --frames 2 {TWELVE}", f"{SIZE}, .P(4), .ITERATIONS(3)")],
-    "subpixel": [(f"--size 32x16 --frames 2 {TWELVE}", f"{SIZE}, .P(4), .ITERATIONS(3)")],
+    "subpixel": [
+        (f"--size 32x16 --frames 2 {TWELVE}", f"{SIZE}, .P(4), .ITERATIONS(3)"),
+        (f"{FLAT} {TWELVE}", f"{SIZE}, .P(4), .ITERATIONS(3)"),
+    ],
     "uniqueness": [
         (f"--size 32x16 --frames 2 {TWELVE}", f"{SIZE}, .P(4), .ITERATIONS(3)"),
         (f"--size 32x16 {TWELVE} -s uniqueness.factor=256", f"{SIZE}, .P(4), .ITERATIONS(3), .FACTOR(256)"),
+        (f"{NOISE} {TWELVE}", f"{SIZE}, .P(4), .ITERATIONS(3)"),
     ],
     "rectification": [
         ("--size 32x16 -d 32 --frames 2 -s rectification.window=9", f"{SIZE}, .WINDOW(9), .OFFSET_BITS(9)"),
         ("--size 32x48 -d 32 -s rectification.window=15", ".WIDTH(32), .HEIGHT(48), .WINDOW(15), .OFFSET_BITS(9)"),
     ],
     "noise_reduction": [("--size 32x16 -d 32 --frames 2 -s subpixel.mask_border=false", SIZE)],
+    "median_3x3": [
+        (f"--size 32x16 -d 32 --frames 2 {MEDIAN}", SIZE),
+        (f"{NOISE} -d 32 {MEDIAN}", SIZE),
+    ],
 }
 
 # Kinds of mistakes, and the patterns that are right for each.
@@ -222,6 +236,31 @@ NOISE_REDUCTION = [
     ("noise_reduction.sv", "inputs_valid = !reads || in_disparity_valid", "inputs_valid = 1'b1", HANDSHAKE),
     ("noise_reduction.sv", ".AHEAD(REACH * WIDTH + REACH)", ".AHEAD(REACH * WIDTH + REACH + 1)", COLUMN, {"row": 0}),
 ]
+MEDIAN_3X3 = [
+    ("sort_three.sv", "falls = b < a", "falls = b > a", VALUES),
+    ("sort_three.sv", "highest = c < higher", "highest = c > higher", VALUES),
+    ("sort_three.sv", "swaps = other < lower", "swaps = other > lower", VALUES),
+    ("median_3x3.sv", "column != 16'd0 &&", "", BORDER, {"row": 1, "column": 0}),
+    ("median_3x3.sv", "column != 16'(WIDTH - 1)", "column != 16'(WIDTH)", BORDER, {"row": 1, "column": 31}),
+    ("median_3x3.sv", "row != 16'd0 &&", "", BORDER, {"row": 0}),
+    ("median_3x3.sv", "row != 16'(HEIGHT - 1)", "row != 16'(HEIGHT)", BORDER, {"row": 15}),
+    ("median_3x3.sv", ".AHEAD(WIDTH + 1)", ".AHEAD(WIDTH)", COLUMN, {"row": 0}),
+    ("median_3x3.sv", ".AHEAD(WIDTH + 1)", ".AHEAD(2 * WIDTH + 1)", ROW, {"row": 0}),
+    ("median_3x3.sv", "shifted[4*12 +: 12]", "shifted[3*12 +: 12]", BORDER, {"row": 0}),
+    ("median_3x3.sv", "shifted[6*12 +: 3*12]", "shifted[3*12 +: 3*12]", VALUES | STATE),
+    ("median_3x3.sv", "ordered[6*12 +: 12]", "ordered[8*12 +: 12]", VALUES),
+    ("median_3x3.sv", "ordered[4*12 +: 12]", "ordered[5*12 +: 12]", VALUES),
+    ("median_3x3.sv", "ordered[2*12 +: 12]", "ordered[0 +: 12]", VALUES),
+    ("median_3x3.sv", "middle[12 +: 12]", "middle[0 +: 12]", VALUES),
+    ("median_3x3.sv", "if (fires) sorted_columns", "sorted_columns", VALUES | STATE | MOVED),
+    ("median_3x3.sv", "sorted_columns[6*12-1:3*12]", "sorted_columns[3*12-1:0]", VALUES | STATE),
+    ("median_3x3.sv", "window_0[(6+r)*12 +: 12]", "window_0[(3+r)*12 +: 12]", VALUES),
+    ("median_3x3.sv", "covered_1 <= covered_0", "covered_1 <= covered", BORDER | VALUES),
+    ("median_3x3.sv", "centre_1 <= centre_0", "centre_1 <= shifted[4*12 +: 12]", BORDER),
+    ("median_3x3.sv", "if (moves[1]) begin", "if (moves[0]) begin", VALUES | MOVED),
+    ("median_3x3.sv", "in_disparity_ready = may_fire && reads", "in_disparity_ready = may_fire", HANDSHAKE),
+    ("median_3x3.sv", "inputs_valid = !reads || in_disparity_valid", "inputs_valid = 1'b1", HANDSHAKE),
+]
 # These leave every value as it is.
 EQUIVALENT = [
     ("census", "stage_control.sv", "busy <= busy - 1'b1", "busy <= '0", "with an interval of 1 there is nothing to wait for"),
@@ -230,6 +269,8 @@ EQUIVALENT = [
     ("subpixel", "subpixel.sv", "up_0 = below_0 > above_0", "up_0 = below_0 >= above_0", "between equal costs the fraction is 0"),
     ("noise_reduction", "noise_reduction.sv", "value != INVALID &&", "", "no disparity of a range of 32 is within 24 of the invalid one"),
     ("noise_reduction", "noise_reduction.sv", "value < centre_0 ?", "value <= centre_0 ?", "the difference of equal values is 0"),
+    ("median_3x3", "sort_three.sv", "falls = b < a", "falls = b <= a", "equal values, whichever comes first"),
+    ("median_3x3", "sort_three.sv", "swaps = other < lower", "swaps = other <= lower", "equal values, whichever comes first"),
 ]
 
 
@@ -241,6 +282,7 @@ def all_mutants():
         "uniqueness": UNIQUENESS,
         "rectification": RECTIFICATION,
         "noise_reduction": NOISE_REDUCTION,
+        "median_3x3": MEDIAN_3X3,
     }
     for circuit, changes in lists.items():
         for file, old, new, pattern, *place in changes:

@@ -3,7 +3,7 @@
 """Breaks the reference circuits (modules/rtl), one small change at a time, and asks whether the test benches of `parallax vectors` and
 `parallax compare` find it (mutants.py: the changes, and what each should look like).
 
-  mutate.py PROGRAM [--of N] [CIRCUIT...]   every N-th mutant (1: all) of these circuits (all six), and a table of what was found
+  mutate.py PROGRAM [--of N] [CIRCUIT...]   every N-th mutant (1: all) of these circuits (all seven), and a table of what was found
 
 A mutant is found when the test bench does not pass under random stalls. Exit code 1: a mutant that is not listed as equivalent lives, or
 one that is was found. Needs Icarus Verilog; each mutant takes about a second.
@@ -16,7 +16,8 @@ import subprocess
 import sys
 import tempfile
 
-from mutants import BENCHES, MUTANTS
+from images import write_images
+from mutants import BENCHES, MUTANTS, STAGES
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 FOLDER = os.path.join(ROOT, "modules", "rtl")
@@ -36,8 +37,9 @@ class Bench:
 
     def __init__(self, program, circuit, number, folder):
         self.program, self.circuit, self.folder = program, circuit, os.path.join(folder, f"{circuit}_{number}")
+        self.stage = STAGES.get(circuit, circuit)
         options, self.parameters = BENCHES[circuit][number]
-        code, said = run([program, "vectors", "--stage", circuit, *options.split(), "--out", self.folder, "-q"], folder)
+        code, said = run([program, "vectors", "--stage", self.stage, *options.split(), "--out", self.folder, "-q"], folder)
         if code != 0:
             sys.exit(f"vectors of {circuit}: {said}")
         self.sources = {
@@ -53,7 +55,7 @@ class Bench:
         for name, text in sources.items():
             with open(os.path.join(library, name), "w", encoding="utf-8") as file:
                 file.write(text)
-        bench = self.circuit + "_tb"
+        bench = self.stage + "_tb"
         dut = f"-DDUT={self.circuit} #({self.parameters})"
         code, said = run(
             ["iverilog", "-g2012", "-s", bench, "-y", "rtl", "-Y", ".sv", dut, "-o", "sim", bench + ".sv"], self.folder
@@ -96,6 +98,7 @@ def main():
     counts = collections.Counter()
     wrong = []
     with tempfile.TemporaryDirectory() as folder:
+        write_images(folder)
         benches = {}
         for mutant in chosen:
             if mutant.circuit not in benches:

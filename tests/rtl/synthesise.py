@@ -4,8 +4,8 @@
 
   synthesise.py table               writes modules/rtl/SYNTHESIS.md: takes some minutes
   synthesise.py check NAME...       1 if the row NAME of that table does not come out again
-  synthesise.py netlist NAME FILE   writes the row's netlist without block RAMs, for a simulation with yosys'
-                                    xilinx/cells_sim.v, which has no model of these
+  synthesise.py netlist NAME FILE   writes the row's netlist, with memories as Verilog arrays, for a simulation with
+                                    yosys' xilinx/cells_sim.v, which has no model of block RAMs
 """
 import glob
 import os
@@ -42,6 +42,8 @@ CASES = {
     "noise_reduction-small": ("noise_reduction", SMALL),
     "noise_reduction-640": ("noise_reduction", LARGE),
     "noise_reduction-640-w5": ("noise_reduction", {**LARGE, "WINDOW": 5}),
+    "median_3x3-small": ("median_3x3", SMALL),
+    "median_3x3-640": ("median_3x3", LARGE),
 }
 # column: cells, as a regular expression
 COLUMNS = {
@@ -57,14 +59,19 @@ COLUMNS = {
 }
 
 
-def yosys(circuit, parameters, options, after):
-    """Runs yosys and returns what it says of `after`."""
+WHOLE = ("",)
+BUT_MEMORIES = ("-run begin:map_memory", "-run fine:check")
+
+
+def yosys(circuit, parameters, parts, after):
+    """Runs yosys and returns what it says of `after`. `parts`: of synth_xilinx, as options of its runs."""
     sources = " ".join(f"'{name}'" if " " in name else name for name in sorted(glob.glob(os.path.join(FOLDER, "*.sv"))))
     chosen = " ".join(f"-chparam {name} {value}" for name, value in parameters.items())
     with tempfile.NamedTemporaryFile("r", suffix=".txt") as said:
         script = (
             f"read_verilog -defer -sv {sources}; hierarchy -top {circuit} {chosen}; "
-            f"synth_xilinx -noiopad -noclkbuf {options} -top {circuit}; tee -o {said.name} {after}"
+            + " ".join(f"synth_xilinx -noiopad -noclkbuf {part} -top {circuit};" for part in parts)
+            + f" tee -o {said.name} {after}"
         )
         done = subprocess.run(["yosys", "-q", "-p", script], capture_output=True, text=True, check=False)
         if done.returncode != 0:
@@ -75,7 +82,7 @@ def yosys(circuit, parameters, options, after):
 def row(name):
     """The line of the table."""
     circuit, parameters = CASES[name]
-    said = yosys(circuit, parameters, "", "stat")
+    said = yosys(circuit, parameters, WHOLE, "stat")
     if "=== design hierarchy ===" in said:
         said = said[said.index("=== design hierarchy ===") :]
     cells = {kind: int(number) for kind, number in re.findall(r"^ +([A-Z][A-Z0-9_]+) +(\d+)$", said, re.MULTILINE)}
@@ -121,7 +128,7 @@ def main():
         check(arguments[1:])
     elif len(arguments) == 3 and arguments[0] == "netlist":
         circuit, parameters = CASES[arguments[1]]
-        yosys(circuit, parameters, "-nobram -nolutram", f"write_verilog -noattr {arguments[2]}")
+        yosys(circuit, parameters, BUT_MEMORIES, f"write_verilog -noattr {arguments[2]}")
     else:
         sys.exit(__doc__)
 
