@@ -73,12 +73,13 @@ DumpSignals read_signals(const VectorManifest& manifest, const VectorStream& str
   for (const std::string& word : in_order) {
     const std::size_t equals = word.find('=');
     std::string kind = word.substr(0, equals);
+    bool is_of_it = true;
     if (!is_of_all(word)) {
       const std::string of = kind.substr(0, kind.rfind('.'));
       const VectorStream* const named = manifest.find(of);
       if (named == nullptr) throw no_stream(manifest, "--signals " + excerpt(word), of);
       kind = kind.substr(of.size() + 1);
-      if (named != &stream) continue;
+      is_of_it = named == &stream;
     }
     std::string* const target = kind == "data"    ? &signals.data
                                 : kind == "valid" ? &signals.valid
@@ -89,7 +90,7 @@ DumpSignals read_signals(const VectorManifest& manifest, const VectorStream& str
       throw UserError(fmt::format("--signals: '{}' is not data=NAME, valid=NAME, ready=NAME or clock=NAME",
                                   excerpt(word)));
     }
-    *target = word.substr(equals + 1);
+    if (is_of_it) *target = word.substr(equals + 1);
   }
   return signals;
 }

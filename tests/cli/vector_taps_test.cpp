@@ -351,7 +351,7 @@ TEST_F(VectorTaps, WhatCannotBeAskedFor) {
             "--dump path_s=x: matching has no stream 'path_s'; the nearest is path_w\n");
   EXPECT_EQ(refusal("compare --vectors v --dump v/path_n.memh --signals path_x.data=x"),
             "--signals path_x.data=x: matching has no stream 'path_x'; the nearest is path_w\n");
-  EXPECT_EQ(refusal("compare --vectors v --dump path_n=v/path_n.memh --signals path_n.date=x"),
+  EXPECT_EQ(refusal("compare --vectors v --dump path_w=v/path_w.memh --signals path_n.date=x"),
             "--signals: 'path_n.date=x' is not data=NAME, valid=NAME, ready=NAME or clock=NAME\n");
   std::string manifest = program_.read("v/manifest.json");
   const std::string whole = manifest;
