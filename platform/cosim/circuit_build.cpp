@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -31,10 +32,12 @@ using Words = std::vector<std::string>;
 class BuildFolder {
  public:
   BuildFolder() {
-    std::string name = (fs::temp_directory_path() / "parallax-circuit-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr)
-      throw UserError(fmt::format("cannot make a folder in {}: {}", fs::temp_directory_path().string(),
-                                  std::strerror(errno)));
+    const char* const wanted = std::getenv("TMPDIR");
+    const fs::path parent = wanted != nullptr && *wanted != '\0' ? wanted : "/tmp";
+    std::string name = (parent / "parallax-circuit-XXXXXX").string();
+    if (::mkdtemp(name.data()) == nullptr) {
+      throw UserError(fmt::format("cannot make a folder in {}: {}", parent.string(), std::strerror(errno)));
+    }
     path_ = name;
   }
   ~BuildFolder() {
@@ -157,6 +160,36 @@ fs::path interface_folder() {
                               beside.string(), installed.lexically_normal().string()));
 }
 
+// Modules that no other one instantiates, of which Verilator would take all as one circuit.
+void check_one_top(const std::string& said) {
+  static const std::regex top("Top module '(\\w+)'");
+  Words tops;
+  for (auto at = std::sregex_iterator(said.begin(), said.end(), top); at != std::sregex_iterator(); ++at)
+    tops.push_back((*at)[1]);
+  if (tops.empty()) return;
+  throw UserError(fmt::format("these modules can be the circuit: {}; --circuit-top NAME says which",
+                              excerpt(fmt::format("{}", fmt::join(tops, ", ")), 400)));
+}
+
+void check_language(const fs::path& source) {
+  if (source.extension() != ".vhd" && source.extension() != ".vhdl") return;
+  throw UserError(fmt::format(
+      "{} is VHDL; ghdl --synth --std=08 --out=verilog {} -e ENTITY > ENTITY.v makes Verilog of it",
+      excerpt(source.string(), 300), excerpt(source.string(), 300)));
+}
+
+UserError cannot_write(const fs::path& library, const std::string& why) {
+  return UserError(fmt::format("cannot write {}: {}", library.string(), why));
+}
+
+// Says so before what takes ten seconds.
+void check_writable(const fs::path& library) {
+  std::error_code ignored;
+  const bool is_new = !fs::exists(library, ignored);
+  if (!std::ofstream(library, std::ios::app)) throw cannot_write(library, std::strerror(errno));
+  if (is_new) fs::remove(library, ignored);
+}
+
 // Verilator names its files after the top module: V, its name, and what they are.
 std::string top_in(const fs::path& folder) {
   constexpr std::string_view kRoot = "___024root.h";
@@ -173,6 +206,7 @@ std::string top_in(const fs::path& folder) {
 void build_circuit(const std::vector<fs::path>& sources, const CircuitOptions& options,
                    const fs::path& library) {
   const fs::path interface = interface_folder();
+  check_writable(library);
   BuildFolder folder;
   Words words{"verilator", "--cc",        "--no-timing", "-Wno-fatal", "--x-assign",
               "unique",    "--x-initial", "unique",      "--Mdir",     folder.path().string()};
@@ -188,11 +222,12 @@ void build_circuit(const std::vector<fs::path>& sources, const CircuitOptions& o
     words.push_back("-G" + parameter);
   }
   for (const fs::path& source : sources) {
+    check_language(source);
     words.push_back(source.string());
     if (const fs::path parent = source.parent_path(); !parent.empty())
       words.push_back("-I" + parent.string());
   }
-  run_tool(words, folder.path(), "verilator", "%Error");
+  check_one_top(run_tool(words, folder.path(), "verilator", "%Error"));
   std::string root =
       run_tool({"verilator", "--getenv", "VERILATOR_ROOT"}, folder.path(), "verilator", "%Error");
   root.erase(root.find_last_not_of(" \n") + 1);
@@ -210,7 +245,7 @@ void build_circuit(const std::vector<fs::path>& sources, const CircuitOptions& o
            folder.path(), "g++", "error");
   std::error_code failed;
   fs::copy_file(made, library, fs::copy_options::overwrite_existing, failed);
-  if (failed) throw UserError(fmt::format("cannot write {}: {}", library.string(), failed.message()));
+  if (failed) throw cannot_write(library, failed.message());
 }
 
 CircuitFile::CircuitFile(const std::vector<fs::path>& files, const CircuitOptions& options) {

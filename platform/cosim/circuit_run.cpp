@@ -54,6 +54,7 @@ CircuitRun::CircuitRun(const std::vector<CircuitOptions>& circuits, bool shadow,
     files.push_back(std::move(of_it));
   }
   // What is cheap to get wrong comes before what takes long.
+  check_stages(config, model, stages(), interrupted);
   for (std::size_t i = 0; i < circuits_.size(); ++i) {
     const CircuitOptions& options = *circuits_[i].options;
     const CircuitFile library(files[i], options);
@@ -65,11 +66,15 @@ CircuitRun::CircuitRun(const std::vector<CircuitOptions>& circuits, bool shadow,
 
 CircuitRun::~CircuitRun() = default;
 
+std::vector<std::string> CircuitRun::stages() const {
+  std::vector<std::string> all;
+  for (const Placed& placed : circuits_) all.push_back(placed.stage);
+  return all;
+}
+
 void CircuitRun::record(const MachineConfig& config, const MachineInput& model,
                         const std::function<bool()>& interrupted) {
-  std::vector<std::string> stages;
-  for (const Placed& placed : circuits_) stages.push_back(placed.stage);
-  std::vector<StageRecord> records = record_stages(config, model, stages, interrupted);
+  std::vector<StageRecord> records = record_stages(config, model, stages(), interrupted);
   if (records.empty()) return;  // interrupted
   for (std::size_t i = 0; i < circuits_.size(); ++i) {
     Placed& placed = circuits_[i];

@@ -31,8 +31,8 @@ namespace parallax {
 class CircuitRun {
  public:
   /// Builds circuits that are given as Verilog, loads them, and runs the model (record_stages) on the
-  /// `model.frames` frames with images. Throws UserError, as these do, and for two circuits of one stage.
-  /// When `interrupted` said yes, nothing else may be called.
+  /// `model.frames` frames with images, after a look at the stages (check_stages). Throws UserError, as these
+  /// do, and for two circuits of one stage. When `interrupted` said yes, nothing else may be called.
   CircuitRun(const std::vector<CircuitOptions>& circuits, bool shadow, const MachineConfig& config,
              const MachineInput& model, const std::function<bool()>& interrupted);
   ~CircuitRun();
@@ -59,6 +59,7 @@ class CircuitRun {
     CircuitStage* module = nullptr;  // belongs to the machine
   };
 
+  std::vector<std::string> stages() const;
   void record(const MachineConfig& config, const MachineInput& model,
               const std::function<bool()>& interrupted);
   void run_shadows(const MachineConfig& config, const MachineInput& model,

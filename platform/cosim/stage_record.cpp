@@ -92,10 +92,7 @@ std::string simulate(const MachineConfig& config, const MachineInput& input,
                      const std::vector<std::string>& stages) {
   const Machine machine("machine", config, input);
   std::vector<std::unique_ptr<Recording>> recordings;
-  for (const std::string& stage : stages) {
-    check_vectors(machine, stage, "--circuit");
-    recordings.push_back(std::make_unique<Recording>(machine, stage));
-  }
+  for (const std::string& stage : stages) recordings.push_back(std::make_unique<Recording>(machine, stage));
   simulate_to_end(machine);
   if (!machine.finished()) return {};
   machine.dataflow().bring_up_to_date();
@@ -118,6 +115,17 @@ void simulate_to_end(const Machine& machine) {
   } while (sc_core::sc_get_status() != sc_core::SC_STOPPED && sc_core::sc_pending_activity());
   if (!machine.finished() && sc_core::sc_get_status() != sc_core::SC_STOPPED)
     throw UserError(message(find_deadlock(machine)));
+}
+
+void check_stages(const MachineConfig& config, const MachineInput& input,
+                  const std::vector<std::string>& stages, const std::function<bool()>& interrupted) {
+  in_own_process(
+      [&] {
+        const Machine machine("machine", config, input);
+        for (const std::string& stage : stages) check_vectors(machine, stage, "--circuit");
+        return std::string();
+      },
+      interrupted);
 }
 
 std::vector<StageRecord> record_stages(const MachineConfig& config, const MachineInput& input,

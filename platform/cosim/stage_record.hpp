@@ -24,10 +24,15 @@ struct StageRecord {
   std::size_t slot = 0;         ///< of the pipeline that the stage stands in, 0 is the first upstream
 };
 
+/// Throws UserError when the machine has not all of these stages, or one whose tokens cannot be recorded;
+/// simulates nothing. `interrupted` as below.
+void check_stages(const MachineConfig& config, const MachineInput& input,
+                  const std::vector<std::string>& stages, const std::function<bool()>& interrupted);
+
 /// The records of some stages, of one machine that processes `input.frames` frames with images, in a process
 /// of its own. None when `interrupted` (in_own_process) said yes, or when a circuit in the place of another
-/// stage has stopped the simulation before the last frame. Throws UserError when there is no such stage, or
-/// when that machine fails.
+/// stage has stopped the simulation before the last frame. The machine has these stages (check_stages).
+/// Throws UserError when it fails.
 std::vector<StageRecord> record_stages(const MachineConfig& config, const MachineInput& input,
                                        const std::vector<std::string>& stages,
                                        const std::function<bool()>& interrupted);
