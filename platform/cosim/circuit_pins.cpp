@@ -28,6 +28,7 @@ const Names& endings(const std::string& role) {
       {"keep", {"keep", "tkeep", "tstrb"}},
       {"row", {"row", "y"}},
       {"column", {"column", "col", "x"}},
+      {"group", {"group", "iteration"}},
   };
   return all.at(role);
 }
@@ -159,9 +160,24 @@ class Finder {
     pins.first = take_at(stream, "first", true, 1);
     pins.last = take_at(stream, "last", true, 1);
     pins.keep = take_at(stream, "keep", true, 0);
-    pins.row = take_at(stream, "row", true, 0);
-    pins.column = take_at(stream, "column", true, 0);
+    const TokenShape& shape = stream.shape;
+    const bool rows = shape.row_tokens > 0;
+    pins.row = counter_at(stream, "row", rows ? static_cast<std::uint64_t>(stage_.height) - 1 : 0);
+    pins.column = counter_at(
+        stream, "column", (rows ? static_cast<std::uint64_t>(stage_.tile_width) : stream.frame_tokens) - 1);
+    pins.group = counter_at(stream, "group", shape.tokens_per_pixel - 1);
     return pins;
+  }
+
+  // What is counted on a pin, up to `most`.
+  const parallax_pin* counter_at(const VectorStream& stream, const std::string& role, std::uint64_t most) {
+    const parallax_pin* const found = take_at(stream, role, true, 0);
+    if (found != nullptr && found->width < 64 && most >> found->width != 0) {
+      throw UserError(fmt::format("circuit {}: pin {} has {} bit{}; as {}.{} it must hold {}",
+                                  circuit_.name(), found->name, found->width, found->width == 1 ? "" : "s",
+                                  stream.port, role, most));
+    }
+    return found;
   }
 
   std::vector<PortPins::Data> of_fields(const VectorStream& stream) {

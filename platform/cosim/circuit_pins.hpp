@@ -27,8 +27,9 @@ struct PortPins {
   const parallax_pin* first = nullptr;   ///< 1 with the first token of a frame
   const parallax_pin* last = nullptr;    ///< 1 with the last token of a row
   const parallax_pin* keep = nullptr;    ///< all ones: every byte counts
-  const parallax_pin* row = nullptr;     ///< of the token
-  const parallax_pin* column = nullptr;  ///< likewise, in tokens
+  const parallax_pin* row = nullptr;     ///< of the token's first pixel in the image, or the tile
+  const parallax_pin* column = nullptr;  ///< likewise; of tokens that know no rows their number in the frame
+  const parallax_pin* group = nullptr;   ///< of a pixel that has several tokens, which one
 };
 
 /// Which pin of a circuit is what: by the names that such circuits usually have, or as the user says.
@@ -41,7 +42,8 @@ struct CircuitPins {
 };
 
 /// Finds them for the ports of a stage, and sets the constants. Throws UserError when a port has no pin, when
-/// a pin has another width than the tokens, runs the other way, or is an input that nobody drives.
+/// a pin has another width than the tokens, does not hold what is counted on it, runs the other way, or is an
+/// input that nobody drives.
 CircuitPins find_pins(const Circuit& circuit, const VectorManifest& stage, const CircuitOptions& options);
 
 }  // namespace parallax

@@ -18,17 +18,24 @@ std::string CircuitPort::place(std::uint64_t token) const {
   return fmt::format("token {} of frame {}", token % stream.frame_tokens, token / stream.frame_tokens);
 }
 
+std::uint64_t CircuitPort::column(std::uint64_t token) const {
+  const TokenShape& shape = stream.shape;
+  return token % shape.row_tokens / shape.tokens_per_pixel * shape.pixels_per_token;
+}
+
 CircuitInput::CircuitInput(const CircuitPort& port, std::uint64_t seed)
     : port_(port),
       pass_tokens_(port.pass_tokens()),
       pass_flush_(port.options.flush.value_or(port.options.latency)),
       stalls_(port.options.stall, seed) {}
 
-void CircuitInput::offer(Cycles cycle) {
+bool CircuitInput::offer(Cycles cycle) {
   const bool there = flush_ > 0 || (stream().read_date_known() && stream().readable_at() <= cycle);
   if (there && !offered_) offered_ = cycle >= next_ && !stalls_.next();
   set_if_there(port_.pins.valid, offered_ ? 1 : 0);
-  if (offered_ && !loaded_) load();
+  if (!offered_ || loaded_) return false;
+  load();
+  return true;
 }
 
 void CircuitInput::load() {
@@ -55,7 +62,8 @@ void CircuitInput::load() {
   set_if_there(port_.pins.first, !zeros && token == 0 ? 1 : 0);
   set_if_there(port_.pins.last, !zeros && rows && token % row_tokens == row_tokens - 1 ? 1 : 0);
   set_if_there(port_.pins.row, rows ? token / row_tokens : 0);
-  set_if_there(port_.pins.column, rows ? token % row_tokens : token);
+  if (port_.pins.column != nullptr) set_pin(*port_.pins.column, rows ? port_.column(token) : token);
+  set_if_there(port_.pins.group, token % port_.stream.shape.tokens_per_pixel);
 }
 
 bool CircuitInput::take(Cycles cycle, bool stands) {

@@ -31,6 +31,8 @@ struct CircuitPort {
   }
   /// "token 12 of frame 0"
   std::string place(std::uint64_t token) const;
+  /// Of the token's first pixel in the image, or the tile; of a stream that knows rows.
+  std::uint64_t column(std::uint64_t token) const;
 };
 
 /// Tokens into a circuit: valid and data are driven here, ready comes from the circuit.
@@ -44,9 +46,10 @@ class CircuitInput {
   /// Whether it is known from when on the next token is there.
   bool date_known() const { return flush_ > 0 || stream().read_date_known(); }
 
-  /// Puts what there is in this cycle on the pins. A token whose value comes later than its date, from stages
-  /// that work on whole rows behind another circuit, has the recorded one.
-  void offer(Cycles cycle);
+  /// Puts what there is in this cycle on the pins; whether it is a token that was not there before. A token
+  /// whose value comes later than its date, from stages that work on whole rows behind another circuit, has
+  /// the recorded one.
+  bool offer(Cycles cycle);
   bool offered() const { return offered_; }
   /// Whether it was taken, the circuit's clock standing still or not.
   bool take(Cycles cycle, bool stands);

@@ -184,7 +184,9 @@ bool CircuitStage::can_run() const {
 
 void CircuitStage::step() {
   ++clocked_;
-  for (const auto& input : inputs_) input->offer(cycle_);
+  for (const auto& input : inputs_) {
+    if (input->offer(cycle_)) due_ = cycle_;
+  }
   for (const auto& output : outputs_) output->make_ready(cycle_);
   if (pins_.clock != nullptr) set_pin(*pins_.clock, std::uint64_t{0});
   if (pins_.enable != nullptr) set_pin(*pins_.enable, std::uint64_t{1});
@@ -209,10 +211,12 @@ void CircuitStage::step() {
   if (circuit_.finished())
     give_up(fmt::format("it has ended the simulation ($finish or $stop) in cycle {}", cycle_.count()));
   cycle_ += Cycles(1);
-  const std::uint64_t quiet = (cycle_ - std::max(moved_, idle_)).size();
-  if (quiet == kRest) rests_ = !owes();
-  if (quiet > timeout_)
-    give_up(fmt::format("nothing has moved at its ports since cycle {}: {}", moved_.count(), waits()));
+  const std::uint64_t quiet = (cycle_ - std::max({moved_, idle_, due_})).size();
+  if (quiet == std::min(kRest, timeout_)) rests_ = !owes();
+  if (!rests_ && quiet > timeout_) {
+    const std::string since = moved_ > Cycles(0) ? fmt::format(" since cycle {}", moved_.count()) : "";
+    give_up(fmt::format("nothing has moved at its ports{}: {}", since, waits()));
+  }
 }
 
 void CircuitStage::edge() {

@@ -94,7 +94,8 @@ class CircuitStage final : public sc_core::sc_module, public Actor, public Circu
   bool needs_all_ = false;     // an output has no valid: there is a step only with a token at each input
   Cycles cycle_{0};            // the next one
   Cycles moved_{0};            // the last one in which a token passed,
-  Cycles idle_{0};             // and from which on the clock runs again after a rest
+  Cycles idle_{0};             // from which on the clock runs again after a rest,
+  Cycles due_{0};              // and in which a token was offered first
   bool rests_ = false;
   std::uint64_t clocked_ = 0;
   sc_core::sc_time known_until_;  // every date before this is known

@@ -134,11 +134,13 @@ std::string text(const TokenComparison& comparison) {
         fmt::format("{}: {} in place of {}, {} too {}\n", stream.name, plural(comparison.got_tokens, "token"),
                     comparison.expected_tokens, number, few ? "few" : "many");
   }
-  out += fmt::format("{}: {} of {} tokens differ", stream.name, comparison.different_tokens,
-                     comparison.compared_tokens);
-  if (comparison.unknown_tokens > 0)
-    out += fmt::format(", {} of them with unknown bits", comparison.unknown_tokens);
-  out += "\n";
+  if (comparison.compared_tokens > 0) {
+    out += fmt::format("{}: {} of {} tokens differ", stream.name, comparison.different_tokens,
+                       comparison.compared_tokens);
+    if (comparison.unknown_tokens > 0)
+      out += fmt::format(", {} of them with unknown bits", comparison.unknown_tokens);
+    out += "\n";
+  }
   if (const auto& first = comparison.first) {
     out += fmt::format("first difference    frame {}", first->place.frame);
     if (comparison.manifest->tile_begins.size() > 1 && first->place.tile >= 0)

@@ -244,6 +244,7 @@ class ShiftSearch {
 
 std::vector<DifferencePattern> find_end(const TokenComparison& comparison) {
   if (comparison.different_tokens > 0) return {};
+  if (comparison.got_tokens == 0) return {{"truncated", "no token came out"}};
   if (comparison.got_tokens < comparison.expected_tokens) {
     return {{"truncated", fmt::format("it ends before {}, all before that is equal",
                                       place_text(comparison, comparison.compared_tokens))}};

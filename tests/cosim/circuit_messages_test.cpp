@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a run says of a circuit that does not fit its stage, and of one that does not keep the handshake.
+#include <gtest/gtest.h>
+
+#include <fmt/format.h>
+
+#include <ostream>
+#include <string>
+
+#include "tests/cosim/make_cpp_circuit.hpp"
+
+namespace parallax::test {
+namespace circuit_messages_test {
+
+constexpr const char* kMachine = "run --size 32x16 --no-verdict --timing-frames 1 ";
+constexpr const char* kPlace = "--circuit noise_reduction=c.so ";
+
+// With ready and valid, and what each case changes of it.
+constexpr const char* kInput = "IN(clk, 1) IN(in_valid, 1) IN(in_data, 12) OUT(in_ready, 1) ";
+constexpr const char* kOutput = "OUT(out_valid, 1) OUT(out_data, 12) IN(out_ready, 1) ";
+std::string both(const std::string& more = "") { return std::string(kInput) + kOutput + more; }
+
+void expect_refused(const Outcome& outcome, const std::string& message) {
+  EXPECT_EQ(outcome.code, 2) << outcome.out;
+  EXPECT_EQ(outcome.err, "parallax: error: " + message + "\n");
+}
+
+struct Misfit {
+  const char* name;
+  std::string pins;
+  const char* arguments;
+  const char* message;
+};
+
+void PrintTo(const Misfit& misfit, std::ostream* out) { *out << misfit.name; }
+
+class CircuitMisfit : public ::testing::TestWithParam<Misfit> {};
+
+TEST_P(CircuitMisfit, IsRefusedInOneLine) {
+  const Program program;
+  make_cpp_circuit(program, "c", GetParam().pins, "");
+  expect_refused(program(std::string(kMachine) + kPlace + GetParam().arguments), GetParam().message);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, CircuitMisfit,
+    ::testing::Values(
+        Misfit{"NoInput", "IN(clk, 1) IN(pixel, 12) " + std::string(kOutput), "",
+               "circuit circuit has no pin for the input in_disparity of noise_reduction (12 bits), such as "
+               "in_disparity_data; it has clk, pixel, out_valid, out_data, out_ready: --circuit-pins "
+               "in_disparity.data=PIN names it"},
+        Misfit{
+            "NoOutput", kInput, "",
+            "circuit circuit has no pin for the output out_disparity of noise_reduction (12 bits), such as "
+            "out_disparity_data; it has clk, in_valid, in_data, in_ready: --circuit-pins "
+            "out_disparity.data=PIN names it"},
+        Misfit{"InputAsOutput", "IN(clk, 1) OUT(in_data, 12) " + std::string(kOutput), "",
+               "circuit circuit: pin in_data is an output; as in_disparity.data it must be an input"},
+        Misfit{"OutputAsInput", std::string(kInput) + "IN(out_data, 12)", "",
+               "circuit circuit: pin out_data is an input; as out_disparity.data it must be an output"},
+        Misfit{"Width", "IN(clk, 1) IN(in_data, 12) IN(in_valid, 2) " + std::string(kOutput), "",
+               "circuit circuit: pin in_valid has 2 bits; as in_disparity.valid it must have 1"},
+        Misfit{"Undriven", both("IN(mode, 3)"), "",
+               "circuit circuit: nothing drives the input mode of 3 bits; --circuit-pins ROLE=mode says what "
+               "it is, --circuit-set mode=VALUE what it is to be"},
+        Misfit{"NoClock", "IN(in_valid, 1) IN(in_data, 12) OUT(out_data, 12)", "",
+               "circuit circuit has no clock, such as clk, but a handshake at in_disparity; --circuit-pins "
+               "clock=PIN names it"},
+        Misfit{"NarrowColumn", both("IN(in_x, 4)"), "",
+               "circuit circuit: pin in_x has 4 bits; as in_disparity.column it must hold 31"},
+        Misfit{"NarrowRow", both("IN(in_row, 1)"), "",
+               "circuit circuit: pin in_row has 1 bit; as in_disparity.row it must hold 15"},
+        Misfit{"NoRole", both(), "--circuit-pins clock",
+               "--circuit-pins: 'clock' is not ROLE=PIN, as in_left.data=pixel or clock=clk"},
+        Misfit{"NoPin", both(), "--circuit-pins clock=klk",
+               "--circuit-pins clock=klk: circuit circuit has no such pin; the nearest is clk"},
+        Misfit{"UnknownRole", both(), "--circuit-pins in_disparity.date=in_data",
+               "--circuit-pins in_disparity.date=in_data: noise_reduction has no such role; the nearest is "
+               "in_disparity.data"},
+        Misfit{"SetNothing", both("IN(mode, 3)"), "--circuit-set mode",
+               "--circuit-set: 'mode' is not PIN=VALUE, decimal or 0x, as threshold=12"},
+        Misfit{"SetNoNumber", both("IN(mode, 3)"), "--circuit-set mode=0xg",
+               "--circuit-set: 'mode=0xg' is not PIN=VALUE, decimal or 0x, as threshold=12"},
+        Misfit{"SetNoPin", both("IN(mode, 3)"), "--circuit-set mod=1",
+               "--circuit-set mod=1: circuit circuit has no such input; the nearest pin is mode"},
+        Misfit{"SetTooMuch", both("IN(mode, 3)"), "--circuit-set mode=8",
+               "--circuit-set mode=8: pin mode has 3 bits, which do not hold it"}),
+    [](const auto& each) { return std::string(each.param.name); });
+
+TEST(CircuitLibrary, OfAnotherKindOrVersionIsRefused) {
+  const Program program;
+  make_library(program, "c", "int nothing;\n");
+  expect_refused(program(std::string(kMachine) + kPlace),
+                 "c.so is no circuit: it has no function parallax_get_circuit (circuit.h)");
+  make_library(program, "c",
+               "#define PINS(IN, OUT)\n#define VERSION 7\n#include \"tests/cosim/cpp_circuit.hpp\"\n"
+               "static void evaluate(bool) {}\n");
+  expect_refused(program(std::string(kMachine) + kPlace),
+                 "c.so: a circuit of version 7, this program takes version 1; build it again");
+}
+
+// Before anything is compiled.
+TEST(CircuitLibrary, IsOfAStageOfTheMachine) {
+  const Program program;
+  expect_refused(program(std::string(kMachine) + "--circuit census=none.v --circuit noise_reducton=c.v"),
+                 "--circuit: there is no stage 'noise_reducton'; the nearest of this machine's is "
+                 "noise_reduction");
+  std::string many;
+  for (int i = 0; i < 65; ++i) many += fmt::format("--circuit stage_{}=c.v ", i);
+  expect_refused(program(kMachine + many),
+                 "--circuit: 65 circuits are too many; at most 64 can be in one machine");
+}
+
+struct Breach {
+  const char* name;
+  const char* body;
+  const char* arguments;
+  const char* said;
+};
+
+void PrintTo(const Breach& breach, std::ostream* out) { *out << breach.name; }
+
+class CircuitBreach : public ::testing::TestWithParam<Breach> {};
+
+// Each passes its tokens on (they are not what the model's stage makes of them) with one fault.
+TEST_P(CircuitBreach, IsTold) {
+  const Program program;
+  make_cpp_circuit(program, "c", both(), GetParam().body);
+  const Outcome outcome = program(std::string(kMachine) + GetParam().arguments + kPlace);
+  EXPECT_EQ(outcome.code, 1) << outcome.err;
+  EXPECT_NE(outcome.out.find(GetParam().said), std::string::npos) << outcome.err << outcome.out;
+}
+
+constexpr const char* kThrough = "in_ready = out_ready, out_valid = in_valid, out_data = in_data;\n";
+
+INSTANTIATE_TEST_SUITE_P(
+    All, CircuitBreach,
+    ::testing::Values(
+        Breach{"Surplus",
+               "in_ready = out_ready, out_data = in_data;\n static int tokens = 0;\n"
+               "tokens += rises && in_valid && out_ready;\n out_valid = in_valid || tokens == 512;\n",
+               "", "handshake           smoothed: a token more than the 512 of frame 0, in cycle "},
+        Breach{"Finish",
+               "in_ready = out_ready, out_valid = in_valid, out_data = in_data;\n static int tokens = 0;\n"
+               "tokens += rises && in_valid && out_ready;\n ended = tokens == 100;\n",
+               "", "given up            it has ended the simulation ($finish or $stop) in cycle "},
+        Breach{"NeverReady", "", "--circuit-timeout 50 ",
+               "given up            nothing has moved at its ports: interpolated offers token 0 of frame 0, "
+               "and the circuit is not ready; at smoothed the circuit does not offer token 0 of frame 0\n"
+               "smoothed: 0 tokens in place of 512, 512 too few\n"
+               "pattern             no token came out\n"},
+        Breach{
+            "NothingComes", "in_ready = 1;", "--circuit-timeout 2000 ",
+            ": interpolated has no token (token 0 of frame 1 comes next); at smoothed the circuit does not "
+            "offer token 0 of frame 0\n"},
+        Breach{"NoRoom", "in_ready = 1;\n static bool begun = false;\n out_valid = begun |= in_valid != 0;\n",
+               "--circuit-stall 990 --circuit-timeout 20 ", "at smoothed there is no room for token "},
+        Breach{"Bound", kThrough, "--circuit-stall 500 --circuit-bound 5 ",
+               "                    more than the bound of 5 cycles\n"}),
+    [](const auto& each) { return std::string(each.param.name); });
+
+}  // namespace circuit_messages_test
+}  // namespace parallax::test
