@@ -4,16 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <protozero/pbf_writer.hpp>
 #include <utility>
 
 namespace parallax {
 namespace {
-
-namespace field = perfetto_field;
-
-constexpr std::uint64_t kProcessTrack = 1;
-constexpr std::uint32_t kStateCleared = 1;
 
 // Names of events and of their arguments go into the file once, and are numbers from then on.
 enum EventName : std::uint64_t {
@@ -96,75 +90,23 @@ std::string_view title_of(StageActivity activity) { return kEventNames[index_of(
 
 }  // namespace
 
-void PerfettoTrace::add_packet(std::string_view packet) {
-  std::string bytes;
-  protozero::pbf_writer(bytes).add_message(field::kPacket, packet.data(), packet.size());
-  out_.add(bytes);
-}
-
-std::uint64_t PerfettoTrace::intern(std::uint32_t list, std::uint64_t number, std::string_view name) {
-  std::string bytes;
-  {
-    protozero::pbf_writer packet(bytes);
-    packet.add_uint32(field::kSequence, PerfettoEvent::kOurSequence);
-    packet.add_uint32(field::kSequenceFlags, PerfettoEvent::kNeedsState);
-    protozero::pbf_writer data(packet, field::kInternedData);
-    protozero::pbf_writer entry(data, list);
-    entry.add_uint64(field::kEntryNumber, number);
-    entry.add_string(field::kEntryName, name.data(), name.size());
-  }
-  add_packet(bytes);
-  return number;
-}
-
-PerfettoTrace::Track PerfettoTrace::add_track(const std::string& name, const char* unit) {
-  const Track track = ++last_track_;
-  std::string bytes;
-  {
-    protozero::pbf_writer packet(bytes);
-    packet.add_uint32(field::kSequence, PerfettoEvent::kOurSequence);
-    protozero::pbf_writer descriptor(packet, field::kTrackDescriptor);
-    descriptor.add_uint64(field::kUuid, track);
-    descriptor.add_string(field::kName, name);
-    descriptor.add_uint64(field::kParent, kProcessTrack);
-    if (unit != nullptr) {
-      protozero::pbf_writer counter(descriptor, field::kCounter);
-      counter.add_string(field::kUnitName, unit);
-    }
-  }
-  add_packet(bytes);
-  return track;
-}
-
 void PerfettoTrace::begin(const TraceParts& parts) {
   parts_ = parts;
-  std::string bytes;
-  {
-    protozero::pbf_writer packet(bytes);
-    packet.add_uint32(field::kSequence, PerfettoEvent::kOurSequence);
-    packet.add_uint32(field::kSequenceFlags, kStateCleared);
-    protozero::pbf_writer descriptor(packet, field::kTrackDescriptor);
-    descriptor.add_uint64(field::kUuid, kProcessTrack);
-    protozero::pbf_writer process(descriptor, field::kProcess);
-    process.add_int32(field::kPid, 1);
-    process.add_string(field::kProcessName, "Parallax: 1 ns shown is 1 ps, so 1 s is 1 ms");
-  }
-  add_packet(bytes);
-  for (const std::string_view name : kEventNames) intern(field::kEventNames, ++last_event_name_, name);
-  std::uint64_t number = 0;
-  for (const std::string_view name : kArgumentNames) intern(field::kAnnotationNames, ++number, name);
+  out_.begin();
+  for (const std::string_view name : kEventNames) out_.add_event_name(name);
+  for (const std::string_view name : kArgumentNames) out_.add_argument_name(name);
   frames_.name = "frame in flight";
-  for (const TraceParts::StagePart& stage : parts.stages) stages_.push_back(add_track(stage.name));
+  for (const TraceParts::StagePart& stage : parts.stages) stages_.push_back(out_.add_track(stage.name));
   for (const TraceParts::PortPart& port : parts.ports) {
-    ports_.push_back(add_track("memory: " + port.name));
-    rate_counters_.push_back(add_track("memory: " + port.name + " rate", "MB/s"));
+    ports_.push_back(out_.add_track("memory: " + port.name));
+    rate_counters_.push_back(out_.add_track("memory: " + port.name + " rate", "MB/s"));
     if (parts.tokens)
-      request_counters_.push_back(add_track("memory: " + port.name + " requests under way", "bursts"));
+      request_counters_.push_back(out_.add_track("memory: " + port.name + " requests under way", "bursts"));
     bursts_.push_back({"memory: " + port.name + " burst", {}});
   }
   rate_until_.resize(parts.ports.size());
   for (const TraceParts::StreamPart& stream : parts.streams) {
-    fifo_counters_.push_back(add_track(
+    fifo_counters_.push_back(out_.add_track(
         fmt::format("FIFO: {} ({}depth {})", stream.name, parts.tokens ? "" : "mean, ", stream.depth),
         "tokens"));
   }
@@ -175,8 +117,7 @@ std::uint64_t PerfettoTrace::row_name(const TracePosition& position, bool draini
   const std::size_t row = position.row;
   if (row >= numbers.size()) numbers.resize(row + 1);
   if (numbers[row] == 0) {
-    numbers[row] =
-        intern(field::kEventNames, ++last_event_name_, fmt::format(draining ? "row {} out" : "row {}", row));
+    numbers[row] = out_.add_event_name(fmt::format(draining ? "row {} out" : "row {}", row));
   }
   return numbers[row];
 }
@@ -193,29 +134,24 @@ PerfettoTrace::Track PerfettoTrace::lane(Lanes& lanes, Picoseconds begin, Picose
     free = end;
     return track;
   }
-  lanes.tracks.emplace_back(add_track(fmt::format("{} {}", lanes.name, lanes.tracks.size() + 1)), end);
+  lanes.tracks.emplace_back(out_.add_track(fmt::format("{} {}", lanes.name, lanes.tracks.size() + 1)), end);
   return lanes.tracks.back().first;
-}
-
-void PerfettoTrace::slice(Track track, Picoseconds begin, Picoseconds end, std::uint64_t name) {
-  PerfettoEvent(out_, begin, Type::kSliceBegin, track).name(name);
-  slice_end(track, end);
 }
 
 void PerfettoTrace::wait(Track track, Picoseconds begin, Picoseconds end, StageActivity activity,
                          PartId stream) {
   if (begin == end) return;
   {
-    PerfettoEvent event(out_, begin, Type::kSliceBegin, track);
+    PerfettoEvent event = out_.event(begin, Type::kSliceBegin, track);
     event.name(name_number(activity));
     if (stream != kNoPart) event.argument(kAt, parts_.streams[stream].name);
   }
-  slice_end(track, end);
+  out_.slice_end(track, end);
 }
 
 void PerfettoTrace::row_begins(const RowBegin& row) {
   const std::uint64_t name = row_name(row.position, row.draining);
-  PerfettoEvent event(out_, row.begin, Type::kSliceBegin, stages_[row.stage]);
+  PerfettoEvent event = out_.event(row.begin, Type::kSliceBegin, stages_[row.stage]);
   event.name(name);
   event.flow(flow(row.position, row.position.row));
   if (row.row_written >= 0 && row.row_written != row.position.row)
@@ -229,7 +165,7 @@ void PerfettoTrace::row_begins(const RowBegin& row) {
 void PerfettoTrace::row(const StageRow& row) {
   const Track track = stages_[row.stage];
   {
-    PerfettoEvent event(out_, row.busy_until, Type::kSliceEnd, track);
+    PerfettoEvent event = out_.event(row.busy_until, Type::kSliceEnd, track);
     event.argument(kFirings, row.time.firings);
     // Of the row and of the wait after it, so that a stage's numbers are the sums over its rows.
     for (const StageActivity activity : kAllStageActivities) {
@@ -249,24 +185,24 @@ void PerfettoTrace::row(const StageRow& row) {
 
 void PerfettoTrace::firing(const StageFiring& firing) {
   // The waits before a row's first firing are told with the row before.
-  slice(stages_[firing.stage], firing.start, firing.end,
-        firing.work == StageActivity::kBlanking ? kOverhead : kFiring);
+  out_.slice(stages_[firing.stage], firing.start, firing.end,
+             firing.work == StageActivity::kBlanking ? kOverhead : kFiring);
 }
 
 void PerfettoTrace::fifo(const FifoSpan& span) {
-  if (!parts_.tokens) counter(fifo_counters_[span.stream], span.begin, span.mean());
+  if (!parts_.tokens) out_.counter(fifo_counters_[span.stream], span.begin, span.mean());
 }
 
 void PerfettoTrace::token(const TokenTransfer& token) {
   // What a register shows after the cycle.
-  counter(fifo_counters_[token.stream], token.end, token.level);
+  out_.counter(fifo_counters_[token.stream], token.end, token.level);
 }
 
 void PerfettoTrace::port_row(const PortRow& row) {
   const std::size_t port = row.port;
   const std::uint64_t name = row_name(row.position, false);
   {
-    PerfettoEvent event(out_, row.begin, Type::kSliceBegin, ports_[port]);
+    PerfettoEvent event = out_.event(row.begin, Type::kSliceBegin, ports_[port]);
     event.name(name);
     event.flow(flow(row.position, row.position.row));
     event.argument(kFrame, row.position.frame + 1);
@@ -277,57 +213,56 @@ void PerfettoTrace::port_row(const PortRow& row) {
                    row.bursts == 0 ? 0 : row.latency.count() / static_cast<std::int64_t>(row.bursts));
     event.argument(kLatencyLongest, row.longest_latency.count());
   }
-  slice_end(ports_[port], row.end);
-  if (row.begin > rate_until_[port]) counter(rate_counters_[port], rate_until_[port], 0.0);
+  out_.slice_end(ports_[port], row.end);
+  if (row.begin > rate_until_[port]) out_.counter(rate_counters_[port], rate_until_[port], 0.0);
   if (row.end > row.begin) {
-    counter(rate_counters_[port], row.begin,
-            static_cast<double>(row.bytes) * 1e6 / (row.end - row.begin).real());
+    out_.counter(rate_counters_[port], row.begin,
+                 static_cast<double>(row.bytes) * 1e6 / (row.end - row.begin).real());
   }
   rate_until_[port] = row.end;
 }
 
 void PerfettoTrace::requests(const PortRequests& requests) {
-  counter(request_counters_[requests.port], requests.time, requests.under_way);
+  out_.counter(request_counters_[requests.port], requests.time, requests.under_way);
 }
 
 void PerfettoTrace::burst(const BurstTransfer& burst) {
   const Track track = lane(bursts_[burst.port], burst.requested, burst.answered);
   {
-    PerfettoEvent event(out_, burst.requested, Type::kSliceBegin, track);
+    PerfettoEvent event = out_.event(burst.requested, Type::kSliceBegin, track);
     event.name(burst.write ? kWrite : kRead);
     event.argument(kAddress, burst.address);
     event.argument(kBytes, burst.bytes);
   }
-  slice_end(track, burst.answered);
+  out_.slice_end(track, burst.answered);
 }
 
 void PerfettoTrace::frame(const FrameRecord& record) {
   const auto at = [&record](FrameStep step) { return record.at[index_of(step)]; };
   const Track track = lane(frames_, at(FrameStep::kExposed), at(FrameStep::kAtHost));
-  const std::uint64_t name =
-      intern(field::kEventNames, ++last_event_name_, fmt::format("frame {}", record.frame + 1));
+  const std::uint64_t name = out_.add_event_name(fmt::format("frame {}", record.frame + 1));
   {
-    PerfettoEvent event(out_, at(FrameStep::kExposed), Type::kSliceBegin, track);
+    PerfettoEvent event = out_.event(at(FrameStep::kExposed), Type::kSliceBegin, track);
     event.name(name);
     event.argument(kFrame, record.frame + 1);
     event.argument(kFirstDisparity, at(FrameStep::kFirstDisparity).count());
     event.argument(kLastDisparity, at(FrameStep::kLastDisparity).count());
   }
   const auto part = [&](FrameStep from, FrameStep to, EventName what) {
-    if (at(from) < at(to)) slice(track, at(from), at(to), what);
+    if (at(from) < at(to)) out_.slice(track, at(from), at(to), what);
   };
   part(FrameStep::kExposed, FrameStep::kStartable, kReadOut);
   part(FrameStep::kStartable, FrameStep::kCoreStarted, kWaitsForCore);
   part(FrameStep::kCoreStarted, FrameStep::kResultsInMemory, kInCore);
   part(FrameStep::kResultsInMemory, FrameStep::kAtHost, kToHost);
-  slice_end(track, at(FrameStep::kAtHost));
+  out_.slice_end(track, at(FrameStep::kAtHost));
 }
 
 void PerfettoTrace::end(Picoseconds time, const std::vector<EndlessWait>& waits) {
   for (const EndlessWait& wait : waits) {
     for (std::size_t stage = 0; stage < parts_.stages.size(); ++stage) {
       if (parts_.stages[stage].path != wait.waiter) continue;
-      PerfettoEvent event(out_, time, Type::kSliceBegin, stages_[stage]);
+      PerfettoEvent event = out_.event(time, Type::kSliceBegin, stages_[stage]);
       event.name(wait.on_full ? kStuckFull : kStuckEmpty);
       event.argument(kAt, wait.stream);
       event.argument(kDepth, wait.depth);

@@ -12,6 +12,7 @@ namespace {
 constexpr const char* kGroup = "Circuit";
 // What counts cycles and tokens.
 const CLI::Range kCount(std::uint64_t{0}, std::uint64_t{1} << 40);
+constexpr std::uint64_t kMostWaves = 1000000;
 const CLI::Range kPositive(std::uint64_t{1}, std::uint64_t{1} << 40);
 
 /// Options of the circuit that is being described.
@@ -117,6 +118,12 @@ void add_circuit_options(CLI::App& command, std::vector<CircuitOptions>& circuit
   needs_it(options.add<std::int64_t>(
       "--circuit-bound", "NUMBER", [](CircuitOptions& of, std::int64_t cycles) { of.bound = cycles; },
       "Most cycles by which a token may leave later than from the model's stage; more is a failure"));
+  CLI::Option& waves = options.add<std::uint64_t>(
+      "--circuit-waves", "NUMBER", [](CircuitOptions& of, std::uint64_t cycles) { of.waves = cycles; },
+      "With --out: cycles before and behind the first difference of which circuit_STAGE.vcd and .pftrace "
+      "have the waves");
+  waves.check(CLI::Range(std::uint64_t{0}, kMostWaves))->default_str(std::to_string(kCircuitWaves));
+  needs_it(waves);
   command
       .add_flag("--circuit-shadow", shadow,
                 "Circuits run beside the model: each gets what the model's stage gets, and what flows on is "

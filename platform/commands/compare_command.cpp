@@ -8,16 +8,22 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "platform/commands/command_context.hpp"
 #include "platform/commands/common_options.hpp"
 #include "platform/commands/exit_codes.hpp"
 #include "platform/config/nearest_name.hpp"
+#include "platform/cosim/difference_image.hpp"
 #include "platform/cosim/dump_file.hpp"
 #include "platform/cosim/path_sums.hpp"
 #include "platform/cosim/token_comparison.hpp"
+#include "platform/cosim/token_dates.hpp"
+#include "platform/images/image_codecs.hpp"
+#include "platform/results/output_file.hpp"
 #include "tlm/error.hpp"
 #include "traces/json_text.hpp"
 
@@ -28,6 +34,8 @@ struct DumpOptions {
   std::filesystem::path vectors;
   std::vector<std::string> dumps;
   std::vector<std::string> signals;
+  std::filesystem::path image;
+  std::optional<std::int64_t> bound;
   bool json = false;
 };
 
@@ -95,6 +103,33 @@ DumpSignals read_signals(const VectorManifest& manifest, const VectorStream& str
   return signals;
 }
 
+// Beside the model's, counted from the first token of each; nothing, if either has none.
+std::optional<TokenDates> compare_dates(const DumpOptions& options, const NamedDump& named,
+                                        const Dump& dump) {
+  if (named.stream->dates_file.empty()) {
+    if (options.bound) {
+      throw UserError(fmt::format("--bound: {} has no dates of {}; parallax vectors --dates writes them",
+                                  options.vectors.string(), named.stream->name));
+    }
+    return std::nullopt;
+  }
+  if (dump.cycles.empty()) {
+    if (options.bound) {
+      throw UserError(
+          fmt::format("--bound: {} does not say in which cycles its tokens are; a VCD does, or a CSV with a "
+                      "column cycle",
+                      named.file));
+    }
+    return std::nullopt;
+  }
+  const std::vector<std::int64_t> model =
+      read_dates((options.vectors / named.stream->dates_file).string(), *named.stream);
+  std::vector<std::int64_t> cycles = dump.cycles;
+  const std::int64_t begin = model.empty() ? 0 : cycles.front() - model.front();
+  for (std::int64_t& cycle : cycles) cycle -= begin;
+  return TokenDates(*named.stream, cycles, model);
+}
+
 // More telling than what else was found.
 void say_first(TokenComparison& comparison, const DifferencePattern& pattern) {
   std::vector<DifferencePattern>& all = comparison.patterns;
@@ -105,6 +140,7 @@ void say_first(TokenComparison& comparison, const DifferencePattern& pattern) {
 int compare_dumps(const DumpOptions& options, CommandContext& context) {
   const VectorManifest manifest = read_vector_manifest(options.vectors);
   bool equal = true;
+  cv::Mat image;  // of the first stream that differs
   std::string said;
   nlohmann::ordered_json streams = nlohmann::ordered_json::array();
   for (const std::string& word : options.dumps) {
@@ -115,9 +151,24 @@ int compare_dumps(const DumpOptions& options, CommandContext& context) {
     TokenComparison comparison = compare_tokens(manifest, *dump.stream, expected, got);
     if (const auto one_path = find_one_path(comparison, expected, got.words, options.vectors))
       say_first(comparison, *one_path);
-    equal = equal && comparison.equal();
+    const std::optional<TokenDates> dates = compare_dates(options, dump, got);
+    equal = equal && comparison.equal() && (!dates || dates->within(options.bound));
     said += text(comparison);
-    streams.push_back(to_json(comparison));
+    nlohmann::ordered_json tree = to_json(comparison);
+    if (dates) {
+      said += dates->text(options.bound);
+      dates->add_to(tree);
+    }
+    if (!options.image.empty() && image.empty())
+      image = difference_image(manifest, *dump.stream, expected, got.words);
+    streams.push_back(std::move(tree));
+  }
+  if (!image.empty()) {
+    const std::vector<std::uint8_t> bytes = encode_image(".png", image);
+    OutputFile file(options.image);
+    file.write(bytes.data(), bytes.size());
+    file.publish();
+    said += fmt::format("image               {}\n", options.image.string());
   }
   nlohmann::ordered_json tree{{"stage", manifest.stage}, {"equal", equal}};
   // The first stream that differs, where a script looks for it.
@@ -163,6 +214,17 @@ void add_compare_command(CLI::App& app, CommandContext& context) {
           "streams STREAM.data=NAME and so on; if not given, PORT_data, PORT_valid, PORT_ready and clk")
       ->type_name("[STREAM.]KIND=NAME,...")
       ->delimiter(',');
+  command
+      .add_option("--image", options->image,
+                  "Writes where the first stream that differs does: black as the model, red different, blue "
+                  "not there. Nothing if all is equal")
+      ->type_name("FILE.png");
+  command
+      .add_option(
+          "--bound", options->bound,
+          "Most cycles by which a token may be later than in the machine, counted from the first one; "
+          "more is a difference. Needs parallax vectors --dates, and a dump with cycles")
+      ->type_name("NUMBER");
   add_json_option(command, options->json);
   command.callback([options, &context] {
     context.action = [options, &context] { return compare_dumps(*options, context); };

@@ -71,7 +71,7 @@ class Run {
     progress_->may_go_on_to(length_.most);
     // Before this process simulates.
     if (!options_.circuits.empty()) {
-      circuits_ = std::make_unique<CircuitRun>(options_.circuits, options_.circuit_shadow,
+      circuits_ = std::make_unique<CircuitRun>(options_.circuits, options_.circuit_shadow, folder_ != nullptr,
                                                configuration_.machine, model_input(), interrupted_);
       if (interrupted_()) return interrupted(writer);
     }
@@ -102,6 +102,7 @@ class Run {
     plan.points = options_.point_cloud && images_.q().has_value();
     plan.timing = true;
     plan.report = plan.relaxations = options_.report;
+    plan.circuits = !options_.circuits.empty();
     plan.traces = trace_choice_.formats;
     return plan;
   }
@@ -183,6 +184,7 @@ class Run {
       } else {
         tell_of_circuits();
       }
+      write_of_circuits();
       return kNotAsExpected;
     }
     if (!machine.finished()) {  // the files say how far it came
@@ -202,11 +204,25 @@ class Run {
     results.print(metrics, tree);
     if (!circuits_) return 0;
     if (!options_.json) tell_of_circuits();
+    write_of_circuits();
     return circuits_->as_model() ? 0 : kNotAsExpected;
   }
 
   void tell_of_circuits() const {
-    if (context_.verbosity != Verbosity::kQuiet) context_.out << circuits_->text();
+    if (context_.verbosity == Verbosity::kQuiet) return;
+    context_.out << circuits_->text();
+    if (!folder_) return;
+    const char* head = "where it differs";
+    for (const CircuitOutcome::File& file : circuits_->files()) {
+      context_.out << fmt::format("{:20}{}\n", head, (folder_->path() / file.name).string());
+      head = "";
+    }
+  }
+
+  void write_of_circuits() const {
+    if (!folder_) return;
+    for (const CircuitOutcome::File& file : circuits_->files()) folder_->write(file.name, file.content);
+    folder_->publish();
   }
 
   // Adds what limits, but not of a single frame, which has no rate. Says no when it was interrupted.

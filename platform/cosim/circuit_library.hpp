@@ -21,7 +21,7 @@ class Circuit {
   Circuit(const Circuit&) = delete;
   Circuit& operator=(const Circuit&) = delete;
 
-  const char* name() const { return entry_->name; }  ///< of its top module
+  const char* name() const { return entry_->name; }  ///< of its top module, or of its file
   const std::vector<parallax_pin>& pins() const { return pins_; }
   void evaluate() { entry_->evaluate(circuit_); }
   bool finished() const { return entry_->finished(circuit_) != 0; }
@@ -33,6 +33,8 @@ class Circuit {
   std::vector<parallax_pin> pins_;
 };
 
+/// Bytes that the simulator keeps a pin in: an integer, or words of 32 bits.
+std::size_t pin_bytes(const parallax_pin& pin);
 /// Writes an input pin of at most 64 bits.
 void set_pin(const parallax_pin& pin, std::uint64_t value);
 /// Writes words of 64 bits, bit 0 lowest in the first one, of the pin's width.

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 namespace parallax {
 namespace {
@@ -172,6 +173,9 @@ bool CircuitOutput::put(Cycles cycle, bool stands, std::uint64_t frames) {
       differs_ = dump_.words.size() > port_.model.words.size() ||
                  !dump_.words.same(dump_.words.size() - 1, port_.model.words, dump_.words.size() - 1);
     }
+    const std::optional<std::int64_t>& bound = port_.options.bound;
+    if (bound && tokens_ < port_.model.cycles.size())
+      late_ = late_ || cycle.count() - port_.model.cycles[tokens_] > *bound;
   }
   for (CircuitEnd* end : ends_) {
     if (has_value) end->send(bits_);

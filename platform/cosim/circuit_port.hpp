@@ -102,6 +102,8 @@ class CircuitOutput {
   const std::string& breach() const { return breach_; }
   /// Whether a value was not the model's.
   bool differs() const { return differs_; }
+  /// Whether a token left later than the bound allows, if there is one.
+  bool late() const { return late_; }
   const Dump& dump() const { return dump_; }
   std::uint64_t tokens() const { return tokens_; }  ///< that were written
   std::string wait() const;
@@ -120,6 +122,7 @@ class CircuitOutput {
   bool valid_ = false;
   bool held_ = false;  // a token was offered and not taken
   bool differs_ = false;
+  bool late_ = false;
   Cycles blocked_{0};
   std::string breach_;
   std::vector<std::uint64_t> bits_, before_, value_;

@@ -33,11 +33,39 @@ std::pair<std::string, std::vector<std::filesystem::path>> read_circuit(const st
   return {word.substr(0, equals), files};
 }
 
+// On the way from another process: files hold any bytes.
+std::string packed(const CircuitOutcome& outcome) {
+  using Json = nlohmann::ordered_json;
+  Json files = Json::array();
+  for (const CircuitOutcome::File& file : outcome.files) {
+    files.push_back(
+        {{"name", file.name}, {"content", Json::binary({file.content.begin(), file.content.end()})}});
+  }
+  const std::vector<std::uint8_t> bytes = Json::to_cbor({{"text", outcome.text},
+                                                         {"json", outcome.json},
+                                                         {"as_model", outcome.as_model},
+                                                         {"fault", outcome.fault},
+                                                         {"files", files}});
+  return {bytes.begin(), bytes.end()};
+}
+
+CircuitOutcome unpacked(const std::string& bytes) {
+  const nlohmann::ordered_json tree = nlohmann::ordered_json::from_cbor(bytes);
+  CircuitOutcome outcome{tree.at("text").get<std::string>(), tree.at("json"), tree.at("as_model").get<bool>(),
+                         tree.at("fault").get<std::string>()};
+  for (const auto& file : tree.at("files")) {
+    const auto& content = file.at("content").get_binary();
+    outcome.files.push_back({file.at("name").get<std::string>(), {content.begin(), content.end()}});
+  }
+  return outcome;
+}
+
 }  // namespace
 
-CircuitRun::CircuitRun(const std::vector<CircuitOptions>& circuits, bool shadow, const MachineConfig& config,
-                       const MachineInput& model, const std::function<bool()>& interrupted)
-    : shadow_(shadow) {
+CircuitRun::CircuitRun(const std::vector<CircuitOptions>& circuits, bool shadow, bool keeps_waves,
+                       const MachineConfig& config, const MachineInput& model,
+                       const std::function<bool()>& interrupted)
+    : shadow_(shadow), keeps_waves_(keeps_waves) {
   if (circuits.size() > CircuitStage::kMost) {
     throw UserError(fmt::format("--circuit: {} circuits are too many; at most {} can be in one machine",
                                 circuits.size(), CircuitStage::kMost));
@@ -107,16 +135,11 @@ void CircuitRun::run_shadows(const MachineConfig& config, const MachineInput& mo
           const Machine machine("machine", config, beside);
           simulate_to_end(machine);
           machine.dataflow().bring_up_to_date();
-          const CircuitOutcome said = outcome(circuits_[i]);
-          return nlohmann::ordered_json{
-              {"text", said.text}, {"json", said.json}, {"as_model", said.as_model}, {"fault", said.fault}}
-              .dump();
+          return packed(outcome(circuits_[i]));
         },
         interrupted);
     if (!told) return;
-    const nlohmann::ordered_json tree = nlohmann::ordered_json::parse(*told);
-    outcomes_.push_back({tree.at("text").get<std::string>(), tree.at("json"), tree.at("as_model").get<bool>(),
-                         tree.at("fault").get<std::string>()});
+    outcomes_.push_back(unpacked(*told));
   }
 }
 
@@ -129,6 +152,7 @@ StageReplacements CircuitRun::replacements(std::size_t begin, std::size_t end,
       auto stage = std::make_unique<CircuitStage>(name.c_str(), *placed.circuit, placed.pins, placed.model,
                                                   *placed.options, i, context, stop);
       placed.module = stage.get();
+      if (keeps_waves_) stage->keep_waves(placed.options->waves.value_or(kCircuitWaves));
       SlotModule slot;
       slot.module = std::move(stage);
       slot.takes_tokens = true;
@@ -180,6 +204,13 @@ std::string CircuitRun::fault() const {
 std::string CircuitRun::text() const {
   std::string all;
   for (const CircuitOutcome& outcome : outcomes_) all += outcome.text;
+  return all;
+}
+
+std::vector<CircuitOutcome::File> CircuitRun::files() const {
+  std::vector<CircuitOutcome::File> all;
+  for (const CircuitOutcome& outcome : outcomes_)
+    all.insert(all.end(), outcome.files.begin(), outcome.files.end());
   return all;
 }
 

@@ -33,8 +33,10 @@ class CircuitRun {
   /// Builds circuits that are given as Verilog, loads them, and runs the model (record_stages) on the
   /// `model.frames` frames with images, after a look at the stages (check_stages). Throws UserError, as these
   /// do, and for two circuits of one stage. When `interrupted` said yes, nothing else may be called.
-  CircuitRun(const std::vector<CircuitOptions>& circuits, bool shadow, const MachineConfig& config,
-             const MachineInput& model, const std::function<bool()>& interrupted);
+  /// `keeps_waves`: files() are wanted.
+  CircuitRun(const std::vector<CircuitOptions>& circuits, bool shadow, bool keeps_waves,
+             const MachineConfig& config, const MachineInput& model,
+             const std::function<bool()>& interrupted);
   ~CircuitRun();
 
   /// For the machine that they are to stand in, which they must outlive; `stop` ends the simulation.
@@ -48,6 +50,8 @@ class CircuitRun {
   std::string fault() const;
   std::string text() const;
   nlohmann::ordered_json json() const;  ///< an array, upstream first
+  /// What shows where they differ.
+  std::vector<CircuitOutcome::File> files() const;
 
  private:
   struct Placed {
@@ -68,6 +72,7 @@ class CircuitRun {
   static CircuitOutcome outcome(const Placed& placed);
 
   const bool shadow_;
+  const bool keeps_waves_;
   std::vector<Placed> circuits_;  // upstream first
   std::size_t in_place_ = 0;      // of these, behind none that was given up before
   std::vector<CircuitOutcome> outcomes_;

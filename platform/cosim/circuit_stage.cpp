@@ -207,7 +207,12 @@ void CircuitStage::step() {
     set_pin(*pins_.enable, std::uint64_t{0});
     circuit_.evaluate();
   }
-  if (!stands || pins_.enable != nullptr) edge();
+  const bool clocked = !stands || pins_.enable != nullptr;
+  if (waves_) {
+    waves_->take(cycle_, clocked, moved);
+    if (!waves_->any()) look_for_first();
+  }
+  if (clocked) edge();
   if (circuit_.finished())
     give_up(fmt::format("it has ended the simulation ($finish or $stop) in cycle {}", cycle_.count()));
   cycle_ += Cycles(1);
@@ -225,9 +230,36 @@ void CircuitStage::edge() {
   circuit_.evaluate();
 }
 
+void CircuitStage::keep_waves(std::uint64_t cycles) {
+  waves_ = std::make_unique<CircuitWaves>(circuit_, pins_, outputs_, cycles);
+}
+
+std::optional<PinWaves> CircuitStage::waves() const {
+  if (!waves_ || !waves_->any()) return std::nullopt;
+  return waves_->waves(clock_);
+}
+
+void CircuitStage::look_for_first() {
+  for (const auto& output : outputs_) {
+    const std::string& stream = output->port().stream.name;
+    const std::uint64_t token = output->tokens() - 1;
+    if (!output->breach().empty()) {
+      waves_->happened(output->breach(), cycle_);
+    } else if (output->differs()) {
+      waves_->happened(fmt::format("{}: {} is the first that differs", stream, output->port().place(token)),
+                       cycle_);
+    } else if (output->late()) {
+      waves_->happened(fmt::format("{}: {} is the first that is later than the bound", stream,
+                                   output->port().place(token)),
+                       cycle_);
+    }
+  }
+}
+
 void CircuitStage::give_up(const std::string& why) {
   if (!fault_.empty()) return;
   fault_ = why;
+  if (waves_) waves_->happened(why, moved_);
   stop_();
 }
 

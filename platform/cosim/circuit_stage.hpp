@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <systemc>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "platform/cosim/circuit_library.hpp"
 #include "platform/cosim/circuit_pins.hpp"
 #include "platform/cosim/circuit_port.hpp"
+#include "platform/cosim/circuit_waves.hpp"
 #include "platform/cosim/stage_record.hpp"
 #include "platform/input/circuit_options.hpp"
 #include "platform/machine/circuit_end.hpp"
@@ -61,6 +63,11 @@ class CircuitStage final : public sc_core::sc_module, public Actor, public Circu
   const std::string& breach() const;
   std::uint64_t cycles() const { return clocked_; }  ///< in which it was clocked
 
+  /// Before the simulation: keeps what the pins do in so many cycles before and behind the first difference.
+  void keep_waves(std::uint64_t cycles);
+  /// None if nothing happened that is worth them.
+  std::optional<PinWaves> waves() const;
+
  private:
   void end_of_elaboration() override;
   void start_of_simulation() override;
@@ -72,6 +79,7 @@ class CircuitStage final : public sc_core::sc_module, public Actor, public Circu
   void step();
   bool can_run() const;
   void edge();
+  void look_for_first();
   void give_up(const std::string& why);
   std::string waits() const;
   std::uint64_t begun() const;
@@ -102,6 +110,7 @@ class CircuitStage final : public sc_core::sc_module, public Actor, public Circu
   sc_core::sc_event timer_;
   bool timer_runs_ = false;
   std::string fault_;
+  std::unique_ptr<CircuitWaves> waves_;  // if wanted
 };
 
 }  // namespace parallax

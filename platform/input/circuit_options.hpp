@@ -8,6 +8,9 @@
 
 namespace parallax {
 
+/// CircuitOptions::waves, if not given.
+constexpr std::uint64_t kCircuitWaves = 64;
+
 /// What the user said of a circuit in the place of a stage.
 struct CircuitOptions {
   std::string circuit;                  ///< STAGE=FILE[,FILE...]: a library, or Verilog
@@ -24,6 +27,8 @@ struct CircuitOptions {
   /// Cycles in which some token must pass while one is due, >= 1; none: 100000, or four for each token of a
   /// frame.
   std::optional<std::uint64_t> timeout;
+  /// Cycles before the first difference, and as many behind, of which waves are written; none: kCircuitWaves.
+  std::optional<std::uint64_t> waves;
   std::optional<std::int64_t> bound;  ///< cycles by which a token may be later than the model's
 };
 

@@ -108,6 +108,10 @@ void check_circuit(const RunOptions& options) {
   if (options.circuits.empty()) return;
   const char* const other = options.timing_only ? "--timing-only" : options.report ? "--report" : nullptr;
   if (other != nullptr) throw UserError(fmt::format("--circuit and {} exclude each other", other));
+  const bool waves = std::any_of(options.circuits.begin(), options.circuits.end(),
+                                 [](const CircuitOptions& circuit) { return circuit.waves.has_value(); });
+  if (waves && options.out.empty())
+    throw UserError("--circuit-waves needs --out: the folder that the waves are written to");
 }
 
 }  // namespace

@@ -33,10 +33,19 @@ bool is_of_frame(const ResultPlan& plan, const std::string& name) {
                    "left_rectified.png", "side_by_side.png", "disparity.bin");
 }
 
+/// "circuit_census.vcd", "circuit_census.pftrace", "circuit_census_left_codes.png"
+bool is_of_circuit(const std::string& name) {
+  const std::string begin = "circuit_";
+  if (name.compare(0, begin.size(), begin) != 0) return false;
+  const std::size_t dot = name.find('.');
+  return dot != std::string::npos && is_one_of(name.substr(dot), ".vcd", ".pftrace", ".png");
+}
+
 bool is_of_run(const ResultPlan& plan, const std::string& name) {
   if (name == "timing.json" || name == "profile.json") return plan.timing;
   if (name == "relaxations.json") return plan.relaxations;
   if (name == "report.html") return plan.report;
+  if (is_of_circuit(name)) return plan.circuits;
   return name == "strip.gif" && plan.frames && plan.sequence;
 }
 
@@ -64,7 +73,7 @@ bool is_planned(const ResultPlan& plan, const std::string& path) {
 }
 
 bool is_result_name(const std::string& path) {
-  ResultPlan any{true, false, true, true, true, true, true, true, {"perfetto", "vcd", "csv", "json"}};
+  ResultPlan any{true, false, true, true, true, true, true, true, true, {"perfetto", "vcd", "csv", "json"}};
   if (is_planned(any, path)) return true;
   any.sequence = true;
   return is_planned(any, path);

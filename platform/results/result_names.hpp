@@ -16,6 +16,7 @@ struct ResultPlan {
   bool sweep = false;                 ///< the numbers of each point of a grid
   bool relaxations = false;           ///< what each limit costs
   bool report = false;                ///< a page of it all
+  bool circuits = false;              ///< where circuits in the place of stages differ
   std::vector<std::string> traces{};  ///< formats
 };
 

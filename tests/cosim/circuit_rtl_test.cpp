@@ -199,6 +199,8 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{"Twice", "--circuit census=a.sv --circuit census=b.sv",
                 "--circuit: census is given twice; one circuit stands for it"},
         Refused{"Nothing", "--circuit-latency 3", "--circuit-latency requires --circuit"},
+        Refused{"WavesNowhere", "--circuit census=wrong.sv --circuit-waves 3",
+                "--circuit-waves needs --out: the folder that the waves are written to"},
         Refused{"NoShadow", "--circuit-shadow", "--circuit-shadow requires --circuit"},
         Refused{"Parameter", "--circuit census=wrong.sv --circuit-parameter WIDTH",
                 "--circuit-parameter: 'WIDTH' is not NAME=VALUE, as WIDTH=640"}),

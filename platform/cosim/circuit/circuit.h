@@ -21,7 +21,7 @@ struct parallax_pin {
 
 struct parallax_circuit {
   unsigned version; /* PARALLAX_CIRCUIT_VERSION */
-  const char* name; /* of its top module */
+  const char* name; /* of its top module, or of its file, for what is said of it */
   /* A circuit of its own, which keeps its state. What has no initial value is random, by the seed. */
   void* (*make)(unsigned seed);
   /* Its pins, which stay where they are until it is destroyed. */
