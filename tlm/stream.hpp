@@ -66,15 +66,17 @@ class Stream final : public StreamBase {
   T read() {
     wait_readable();
     release();
-    if (values_.empty()) SC_REPORT_ERROR("/parallax/stream/value", name());
-    T value = values_.front();
-    values_.pop_front();
-    return value;
+    return pop();
+  }
+  /// Reads one token in `cycle`, in which can_read(cycle) is true, having waited for it for `starved` cycles.
+  T read(Cycles cycle, Cycles starved) {
+    mark_read(cycle, starved);
+    return pop();
   }
 
   /// The value that read() would return, which leaves it there. Needs can_read(), and what read() needs.
   const T& peek() const {
-    if (values_.empty()) SC_REPORT_ERROR("/parallax/stream/value", name());
+    require_value();
     return values_.front();
   }
 
@@ -84,8 +86,24 @@ class Stream final : public StreamBase {
     send_row(&value, 1);
     commit();
   }
+  /// Writes one token in `cycle`, in which can_write(cycle) is true, having waited for room for `blocked`
+  /// cycles.
+  void write(const T& value, Cycles cycle, Cycles blocked) {
+    send_row(&value, 1);
+    mark_written(cycle, blocked);
+  }
 
  private:
+  void require_value() const {
+    if (values_.empty()) SC_REPORT_ERROR("/parallax/stream/value", name());
+  }
+  T pop() {
+    require_value();
+    T value = values_.front();
+    values_.pop_front();
+    return value;
+  }
+
   RowCollector<T> collected_;
   Row take_;
   std::deque<T> values_;  // for a reader in kernel time
@@ -100,7 +118,8 @@ class StreamPort {
   virtual std::vector<StreamBase*> streams() = 0;
 };
 
-/// Input port of a stage: reads one stream.
+/// Input port of a stage: reads one stream. What it has of Stream is for blocks in kernel time, threads and
+/// methods; only a thread may call what waits.
 template <class T>
 class StreamIn final : public sc_core::sc_port<Stream<T>, 1>, public StreamPort {
  public:
@@ -114,6 +133,15 @@ class StreamIn final : public sc_core::sc_port<Stream<T>, 1>, public StreamPort 
     take_ = std::move(take);
   }
 
+  bool can_read() const { return stream().can_read(); }
+  bool can_read(Cycles cycle) const { return stream().can_read(cycle); }
+  const T& peek() const { return stream().peek(); }
+  T read() { return stream().read(); }
+  T read(Cycles cycle, Cycles starved) { return stream().read(cycle, starved); }
+  /// What is bound, from the end of elaboration on.
+  Stream<T>& stream() { return *(*this)[0]; }
+  const Stream<T>& stream() const { return *(*this)[0]; }
+
  private:
   void end_of_elaboration() override {
     sc_core::sc_object* module = this->get_parent_object();
@@ -125,7 +153,8 @@ class StreamIn final : public sc_core::sc_port<Stream<T>, 1>, public StreamPort 
   typename Stream<T>::Row take_;
 };
 
-/// Output port of a stage: writes one stream, or the same tokens to several in the same cycle (a fork).
+/// Output port of a stage: writes one stream, or the same tokens to several in the same cycle (a fork). What
+/// it has of Stream is for blocks in kernel time, and does with all streams what Stream does with one.
 template <class T>
 class StreamOut final : public sc_core::sc_port<Stream<T>, 0>, public StreamPort {
  public:
@@ -142,12 +171,34 @@ class StreamOut final : public sc_core::sc_port<Stream<T>, 0>, public StreamPort
     for (int i = 0; i < this->size(); ++i) (*this)[i]->send_row(row, length);
   }
 
+  bool can_write() const {
+    return all([](const Stream<T>& stream) { return stream.can_write(); });
+  }
+  bool can_write(Cycles cycle) const {
+    return all([cycle](const Stream<T>& stream) { return stream.can_write(cycle); });
+  }
+  void write(const T& value) {
+    for (int i = 0; i < this->size(); ++i) (*this)[i]->wait_writable();  // room that there is stays
+    send_row(&value, 1);
+    for (int i = 0; i < this->size(); ++i) (*this)[i]->commit();
+  }
+  void write(const T& value, Cycles cycle, Cycles blocked) {
+    for (int i = 0; i < this->size(); ++i) (*this)[i]->write(value, cycle, blocked);
+  }
+
  private:
   void end_of_elaboration() override {
     sc_core::sc_object* module = this->get_parent_object();
     for (int i = 0; i < this->size(); ++i) {
       (*this)[i]->attach_writer(module->name(), dynamic_cast<Actor*>(module));
     }
+  }
+  template <class Question>
+  bool all(const Question& question) const {
+    for (int i = 0; i < this->size(); ++i) {
+      if (!question(*(*this)[i])) return false;
+    }
+    return true;
   }
 };
 

@@ -173,10 +173,14 @@ class StreamBase : public sc_core::sc_prim_channel, public virtual sc_core::sc_i
 
   // Reading, in cycles of the reader's clock.
 
-  /// Whether the date of the next token to read is known.
-  bool read_date_known() const { return statistics_.read < statistics_.written; }
-  /// First cycle in which the next token can be read. Needs read_date_known().
-  Cycles readable_at() const { return forward(write_dates_[statistics_.read & mask_]); }
+  /// Whether the date of the token `ahead` tokens after the next one to read is known.
+  bool read_date_known(std::uint64_t ahead = 0) const {
+    return statistics_.read + ahead < statistics_.written;
+  }
+  /// First cycle in which that token can be read. Needs read_date_known(ahead).
+  Cycles readable_at(std::uint64_t ahead = 0) const {
+    return forward(write_dates_[(statistics_.read + ahead) & mask_]);
+  }
   /// The next token is read in `cycle`, having held its reader back by `starved` cycles.
   void mark_read(Cycles cycle, Cycles starved) {
     read_dates_[statistics_.read & mask_] = cycle;
@@ -229,13 +233,15 @@ class StreamBase : public sc_core::sc_prim_channel, public virtual sc_core::sc_i
 
   /// Whether the next token can be read, or written, in the present cycle. What a block in kernel time, or a
   /// circuit, does in the same cycle counts once it has done it.
-  bool can_read() const {
-    const Cycles now = reader_clock_.now();
-    return read_date_known() && readable_at() <= now && last_read_ < now;
+  bool can_read() const { return can_read(reader_clock_.now()); }
+  bool can_write() const { return can_write(writer_clock_.now()); }
+  /// The same of a cycle of the reader's (writer's) clock, for who counts cycles himself: present is the one
+  /// that begins next or now, so a while behind an edge its cycle has passed already.
+  bool can_read(Cycles cycle) const {
+    return read_date_known() && readable_at() <= cycle && last_read_ < cycle;
   }
-  bool can_write() const {
-    const Cycles now = writer_clock_.now();
-    return write_date_known() && writable_at() <= now && last_write_ < now;
+  bool can_write(Cycles cycle) const {
+    return write_date_known() && writable_at() <= cycle && last_write_ < cycle;
   }
   /// Returns in the first cycle, not before the present one, in which the next token can be read.
   void wait_readable();

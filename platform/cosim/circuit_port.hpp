@@ -8,10 +8,10 @@
 #include "platform/cosim/circuit_pins.hpp"
 #include "platform/cosim/dump_file.hpp"
 #include "platform/cosim/stage_record.hpp"
-#include "platform/cosim/stalls.hpp"
 #include "platform/cosim/vector_manifest.hpp"
 #include "platform/input/circuit_options.hpp"
 #include "platform/machine/circuit_end.hpp"
+#include "tlm/stalls.hpp"
 
 namespace parallax {
 
