@@ -11,6 +11,13 @@ using OptionalIn = sc_core::sc_port<sc_core::sc_signal_in_if<Value>, 1, sc_core:
 template <class Value>
 using OptionalOut = sc_core::sc_port<sc_core::sc_signal_inout_if<Value>, 1, sc_core::SC_ZERO_OR_MORE_BOUND>;
 
+/// What lies between a circuit and an end of a stream where both valid and ready are there.
+template <class Data, class Bit = bool>
+struct PinSignals {
+  sc_core::sc_signal<Data> data;
+  sc_core::sc_signal<Bit> valid, ready;
+};
+
 /// Whether it is bound; from the end of elaboration on.
 template <class Interface, int Count, sc_core::sc_port_policy Policy>
 bool is_bound(const sc_core::sc_port<Interface, Count, Policy>& pin) {

@@ -52,6 +52,13 @@ class PinSink final : public sc_core::sc_module, public PinEnd, public Actor {
     clock.add(*this);
   }
 
+  /// Data, valid and ready at once.
+  void bind(PinSignals<Data, Bit>& pins) {
+    data(pins.data);
+    valid(pins.valid);
+    ready(pins.ready);
+  }
+
   /// Stalls in so many of 1000 cycles from now on, 0 to Stalls::kMost.
   void stall(std::uint64_t per_thousand) { stalls_.set(per_thousand); }
   std::uint64_t tokens() const { return tokens_; }  ///< that have been written
@@ -74,6 +81,8 @@ class PinSink final : public sc_core::sc_module, public PinEnd, public Actor {
   void idle() override { drive_pin(ready, false); }
 
   void drive(Cycles cycle) override {
+    if (blocks_) blocked_ += cycle - looked_ - Cycles(1);  // while the clock stood
+    looked_ = cycle;
     room_ = out.can_write(cycle) && (of_burst_ > 0 || room_for_burst(cycle));
     stalled_ = of_burst_ == 0 && (cycle.size() < config_.not_ready_cycles || stalls_.next());
     drive_pin(ready, room_ && !stalled_);
@@ -87,8 +96,9 @@ class PinSink final : public sc_core::sc_module, public PinEnd, public Actor {
   }
 
   bool pass(Cycles cycle, bool stands) override {
+    blocks_ = valid_ && !room_;
     if (!valid_) return false;
-    if (!room_) blocked_ += Cycles(1);
+    if (blocks_) blocked_ += Cycles(1);
     if (stands || (is_bound(ready) && (!room_ || stalled_))) return false;
     if (skip_ > 0) {
       --skip_;
@@ -145,8 +155,10 @@ class PinSink final : public sc_core::sc_module, public PinEnd, public Actor {
   std::uint64_t of_burst_ = 0;  // tokens that are left of a burst under way
   bool room_ = false;           // in the stream, in this cycle
   bool stalled_ = false;
-  bool valid_ = false;  // the circuit has a result in this cycle
-  Cycles blocked_{0};   // cycles in which it waited for room
+  bool valid_ = false;   // the circuit has a result in this cycle
+  bool blocks_ = false;  // and waits for room,
+  Cycles blocked_{0};    // in so many cycles
+  Cycles looked_{-1};    // the last one that was looked at
 };
 
 }  // namespace parallax

@@ -57,6 +57,13 @@ class PinSource final : public sc_core::sc_module, public PinEnd, public Actor {
     clock.add(*this);
   }
 
+  /// Data, valid and ready at once.
+  void bind(PinSignals<Data, Bit>& pins) {
+    data(pins.data);
+    valid(pins.valid);
+    ready(pins.ready);
+  }
+
   /// Stalls in so many of 1000 cycles from now on, 0 to Stalls::kMost.
   void stall(std::uint64_t per_thousand) { stalls_.set(per_thousand); }
   std::uint64_t tokens() const { return tokens_; }  ///< that have been taken
@@ -82,6 +89,8 @@ class PinSource final : public sc_core::sc_module, public PinEnd, public Actor {
   }
 
   void drive(Cycles cycle) override {
+    if (starves_) starved_ += cycle - looked_ - Cycles(1);  // while the clock stood
+    looked_ = cycle;
     there_ = flush_ > 0 || (in.can_read(cycle) && (of_burst_ > 0 || burst_is_there(cycle)));
     if (there_ && !offered_) {
       offered_ =
@@ -95,7 +104,8 @@ class PinSource final : public sc_core::sc_module, public PinEnd, public Actor {
 
   bool pass(Cycles cycle, bool stands) override {
     const bool takes = !is_bound(ready) || is_one(ready->read());
-    if (!there_ && takes) starved_ += Cycles(1);
+    starves_ = !there_ && takes;
+    if (starves_) starved_ += Cycles(1);
     if (!offered_ || !takes || stands) return false;
     offered_ = false;
     next_ = cycle + Cycles(static_cast<std::int64_t>(config_.interval));
@@ -151,7 +161,9 @@ class PinSource final : public sc_core::sc_module, public PinEnd, public Actor {
   bool there_ = false;             // there is a token in this cycle
   bool offered_ = false;           // its pins are driven, until it is taken
   Cycles next_{0};                 // earliest cycle of the next one
-  Cycles starved_{0};              // cycles in which it was wanted and not there
+  bool starves_ = false;           // it is wanted and not there,
+  Cycles starved_{0};              // in so many cycles
+  Cycles looked_{-1};              // the last one that was looked at
 };
 
 }  // namespace parallax
