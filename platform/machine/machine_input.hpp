@@ -51,6 +51,11 @@ struct MachineInput {
   /// Called, if there is one, once a frame, in order, when the host has it; not for what follows the last
   /// one.
   std::function<void(const FrameResult& result)> deliver;
+
+  /// Puts what `make` makes in the place of the stage of that name (as in reports: "census"), as bind_memory
+  /// puts a memory in the place of the machine's own. Throws UserError when it is bound already, or when
+  /// there is nothing that makes it; that the pipeline has no such stage is found when the machine is made.
+  void bind_stage(const std::string& name, StageFactory make);
 };
 
 }  // namespace parallax

@@ -34,9 +34,10 @@ struct SlotModule {
   std::function<void(const MachineConfig* next)> follow{};
 };
 
-/// A stage with what it says of itself.
+/// A stage, or a block in kernel time, with what it says of itself: latency(), look_ahead() and storage(), as
+/// far as it has them.
 template <class S>
-SlotModule slot_module(std::unique_ptr<S> stage);
+SlotModule slot_module(std::unique_ptr<S> block);
 
 /// Makes what stands in a slot, under the slot's name.
 using StageFactory = std::function<SlotModule(const std::string& name, const StageContext& context)>;
@@ -56,6 +57,11 @@ template <class S>
 struct HasLookAhead<S, std::void_t<decltype(std::declval<const S&>().look_ahead())>> : std::true_type {};
 
 template <class S, class = void>
+struct HasLatency : std::false_type {};
+template <class S>
+struct HasLatency<S, std::void_t<decltype(std::declval<const S&>().latency())>> : std::true_type {};
+
+template <class S, class = void>
 struct HasStorage : std::false_type {};
 template <class S>
 struct HasStorage<S, std::void_t<decltype(std::declval<const S&>().storage())>> : std::true_type {};
@@ -63,15 +69,17 @@ struct HasStorage<S, std::void_t<decltype(std::declval<const S&>().storage())>> 
 }  // namespace detail
 
 template <class S>
-SlotModule slot_module(std::unique_ptr<S> stage) {
+SlotModule slot_module(std::unique_ptr<S> block) {
   SlotModule slot;
-  slot.stage = stage.get();
-  slot.takes_tokens = true;
-  slot.latency = stage->latency();
-  if (stage->writing_side() != nullptr) slot.latency += stage->writing_side()->latency();
-  if constexpr (detail::HasLookAhead<S>::value) slot.look_ahead = stage->look_ahead();
-  if constexpr (detail::HasStorage<S>::value) slot.storage = stage->storage();
-  slot.module = std::move(stage);
+  if constexpr (detail::HasLatency<S>::value) slot.latency = block->latency();
+  if constexpr (detail::HasLookAhead<S>::value) slot.look_ahead = block->look_ahead();
+  if constexpr (detail::HasStorage<S>::value) slot.storage = block->storage();
+  if constexpr (std::is_base_of_v<Stage, S>) {
+    slot.stage = block.get();
+    slot.takes_tokens = true;
+    if (block->writing_side() != nullptr) slot.latency += block->writing_side()->latency();
+  }
+  slot.module = std::move(block);
   return slot;
 }
 

@@ -2,6 +2,7 @@
 // A small machine that only its pipeline limits, with images: what comes out, and when.
 #pragma once
 
+#include <deque>
 #include <functional>
 #include <memory>
 #include <sstream>
@@ -24,6 +25,45 @@ struct MachineRun {
   std::int64_t period = 0;                         ///< from the last but one frame to the last one
   std::int64_t first = 0;                          ///< from the first frame's start to its first disparity
   std::int64_t left_texture = 0, left_output = 0;  ///< depths
+  std::uint64_t census_dates = 0;                  ///< CensusDates::hash()
+};
+
+/// Of the streams before and behind the census stage, the dates of its side, of all pixels of these frames.
+class CensusDates {
+ public:
+  explicit CensusDates(const Dataflow& dataflow) {
+    for (StreamBase* stream : dataflow.streams()) {
+      const std::string name = stream->basename();
+      const bool reads = name == "left_rectified" || name == "right_rectified";
+      if (reads || name == "left_codes" || name == "right_codes")
+        stream->add_listener(sides_.emplace_back(reads));
+    }
+  }
+  /// 0 while some are not there yet.
+  std::uint64_t hash() const {
+    std::uint64_t hash = 0;
+    for (const Side& side : sides_) {
+      if (side.left > 0) return 0;
+      hash = hash * 31 + side.hash;
+    }
+    return hash;
+  }
+
+ private:
+  struct Side final : StreamListener {
+    explicit Side(bool of_reads) : reads(of_reads) {}
+    void written(const StreamBase&, Cycles cycle) override { note(!reads, cycle); }
+    void read(const StreamBase&, Cycles cycle) override { note(reads, cycle); }
+    void note(bool wanted, Cycles cycle) {
+      if (!wanted || left == 0) return;
+      --left;
+      hash = (hash ^ cycle.size()) * 1099511628211u;
+    }
+    const bool reads;
+    std::uint64_t left = std::uint64_t{kWidth} * kHeight * kFrames;
+    std::uint64_t hash = 14695981039346656037u;
+  };
+  std::deque<Side> sides_;
 };
 
 inline MachineConfig small_machine(const std::vector<std::string>& assignments = {}) {
@@ -53,6 +93,7 @@ inline MachineRun run_machine(const MachineConfig& config, const StageReplacemen
       sc_core::sc_stop();
     };
     const Machine machine("machine", config, input);
+    const CensusDates census_dates(machine.dataflow());
     sc_core::sc_start();
     if (last.empty()) return "stuck:\n" + describe(machine.dataflow().waits());
     const auto cycles = [&](sc_core::sc_time begin, sc_core::sc_time end) {
@@ -67,12 +108,13 @@ inline MachineRun run_machine(const MachineConfig& config, const StageReplacemen
         if (stream->basename() == std::string(name)) out << " " << stream->depth();
       }
     }
+    out << " " << census_dates.hash();
     for (const Disparity& d : last) out << " " << d.value << " " << static_cast<int>(d.cause);
     return out.str();
   });
   MachineRun run;
   std::istringstream in(text);
-  if (!(in >> run.period >> run.first >> run.left_texture >> run.left_output)) {
+  if (!(in >> run.period >> run.first >> run.left_texture >> run.left_output >> run.census_dates)) {
     run.fault = text;
     return run;
   }
