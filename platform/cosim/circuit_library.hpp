@@ -33,15 +33,4 @@ class Circuit {
   std::vector<parallax_pin> pins_;
 };
 
-/// Bytes that the simulator keeps a pin in: an integer, or words of 32 bits.
-std::size_t pin_bytes(const parallax_pin& pin);
-/// Writes an input pin of at most 64 bits.
-void set_pin(const parallax_pin& pin, std::uint64_t value);
-/// Writes words of 64 bits, bit 0 lowest in the first one, of the pin's width.
-void set_pin(const parallax_pin& pin, const std::vector<std::uint64_t>& words);
-/// Whether a pin of at most 64 bits is not 0.
-bool is_set(const parallax_pin& pin);
-/// Reads words as set_pin() writes them.
-void read_pin(const parallax_pin& pin, std::vector<std::uint64_t>& words);
-
 }  // namespace parallax

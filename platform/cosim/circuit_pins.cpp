@@ -7,15 +7,15 @@
 #include <algorithm>
 #include <charconv>
 #include <map>
-#include <set>
 
 #include "platform/config/nearest_name.hpp"
+#include "platform/cosim/pin_lookup.hpp"
 #include "tlm/error.hpp"
 
 namespace parallax {
 namespace {
 
-using Names = std::vector<std::string>;
+using Names = PinLookup::Names;
 
 // What a circuit may call a pin of this kind at a port; "" is the port's name alone.
 const Names& endings(const std::string& role) {
@@ -39,10 +39,30 @@ const Names kLowResets{"rst_n", "reset_n", "rstn",   "resetn",  "aresetn", "rst_
                        "nrst",  "nreset",  "arst_n", "i_rst_n", "ap_rst_n"};
 const Names kEnables{"ce", "clken", "clk_en", "clock_enable", "aclken", "en", "enable", "clk_ena"};
 
+// What ports may call a pin that they share, or that the only port of its direction has.
+struct SharedNames {
+  Names of_inputs, of_outputs;
+};
+const SharedNames& shared(const std::string& role) {
+  static const std::map<std::string, SharedNames> all{
+      {"valid",
+       {{"in_valid", "valid_in", "i_valid", "valid_i", "s_axis_tvalid", "din_valid", "de", "valid"},
+        {"out_valid", "valid_out", "o_valid", "valid_o", "m_axis_tvalid", "dout_valid", "valid"}}},
+      {"ready",
+       {{"in_ready", "i_ready", "ready_o", "s_axis_tready", "din_ready", "ready"},
+        {"out_ready", "o_ready", "ready_i", "m_axis_tready", "dout_ready", "ready"}}},
+      {"first", {{"in_first", "in_sof", "sof_in", "i_sof", "sof", "s_axis_tuser"}, {}}},
+      {"last", {{"in_last", "in_eol", "eol_in", "i_eol", "eol", "s_axis_tlast"}, {}}},
+      {"row", {{"in_row", "in_y", "row", "y"}, {}}},
+      {"column", {{"in_column", "in_col", "in_x", "column", "col", "x"}, {}}},
+  };
+  return all.at(role);
+}
+
 class Finder {
  public:
   Finder(const Circuit& circuit, const VectorManifest& stage, const CircuitOptions& options)
-      : circuit_(circuit), stage_(stage) {
+      : circuit_(circuit), stage_(stage), lookup_(circuit) {
     for (const std::string& word : options.pins) {
       const std::size_t equals = word.find('=');
       if (equals == std::string::npos || equals == 0 || equals + 1 == word.size()) {
@@ -55,34 +75,25 @@ class Finder {
 
   CircuitPins find(const CircuitOptions& options) {
     CircuitPins pins;
-    pins.clock = take("clock", kClocks, true, 1);
+    if (const PinBits clock = take("clock", kClocks, true, 1)) {
+      if (clock.pin().width != 1) throw wrong_width(clock, "clock", 1);
+      pins.clock = &clock.pin();
+    }
     pins.reset = take("reset", kResets, true, 1);
-    if (pins.reset == nullptr) {
+    if (!pins.reset) {
       pins.reset = take("reset_n", kLowResets, true, 1);
-      pins.reset_is_low = pins.reset != nullptr;
+      pins.reset_is_low = static_cast<bool>(pins.reset);
     }
     for (const VectorStream& stream : stage_.streams) pins.ports.push_back(port(stream));
+    for (const bool is_input : {true, false}) share(pins.ports, is_input);
     pins.enable = take("enable", kEnables, true, 1);
     for (const std::string& word : options.constants) set_constant(word);
     check_names();
-    check_rest();
+    lookup_.check_inputs();
     return pins;
   }
 
  private:
-  const parallax_pin* pin(const std::string& name) const {
-    for (const parallax_pin& each : circuit_.pins()) {
-      if (name == each.name) return &each;
-    }
-    return nullptr;
-  }
-
-  Names pin_names() const {
-    Names names;
-    for (const parallax_pin& each : circuit_.pins()) names.emplace_back(each.name);
-    return names;
-  }
-
   // What a port may be called: by its name, and the only one of its direction as buses usually are.
   Names prefixes(const VectorStream& stream) const {
     const auto alone = std::count_if(stage_.streams.begin(), stage_.streams.end(), [&](const auto& other) {
@@ -100,41 +111,47 @@ class Finder {
     return ending.empty() ? prefix : prefix + "_" + ending;
   }
 
-  // The pin that the user names for a role, or the first of these names that there is; of this direction and
-  // width (0: any). nullptr: none.
-  const parallax_pin* take(const std::string& role, const Names& names, bool is_input, std::size_t width) {
-    roles_.push_back(role);
-    const parallax_pin* found = nullptr;
-    if (const auto named = named_.find(role); named != named_.end()) {
-      found = pin(named->second);
-      if (found == nullptr) {
-        throw UserError(fmt::format("--circuit-pins {}={}: circuit {} has no such pin; the nearest is {}",
-                                    excerpt(role), excerpt(named->second), circuit_.name(),
-                                    nearest_name(named->second, pin_names())));
-      }
-    } else {
-      for (std::size_t i = 0; i < names.size() && found == nullptr; ++i) {
-        found = pin(names[i]);
-        // A name that serves several roles is whatever is not taken yet.
-        if (found != nullptr && taken_.count(found) > 0) found = nullptr;
-      }
-    }
-    if (found == nullptr) return nullptr;
-    if ((found->is_input != 0) != is_input) {
-      throw UserError(fmt::format("circuit {}: pin {} is an {}put; as {} it must be an {}put",
-                                  circuit_.name(), found->name, is_input ? "out" : "in", role,
-                                  is_input ? "in" : "out"));
-    }
-    if (width != 0 && found->width != width) {
-      throw UserError(fmt::format("circuit {}: pin {} has {} bit{}; as {} it must have {}", circuit_.name(),
-                                  found->name, found->width, found->width == 1 ? "" : "s", role, width));
-    }
-    taken_.insert(found);
-    return found;
+  static std::string bits_text(const PinBits& bits) {
+    return fmt::format("{} bit{}", bits.width(), bits.width() == 1 ? "" : "s");
   }
 
-  const parallax_pin* take_at(const VectorStream& stream, const std::string& role, bool is_input,
-                              std::size_t width) {
+  UserError wrong_width(const PinBits& bits, const std::string& role, std::size_t width) const {
+    return UserError(fmt::format("circuit {}: pin {} has {}; as {} it must have {}", circuit_.name(),
+                                 bits.pin().name, bits_text(bits), role, width));
+  }
+
+  // An AXI stream is whole bytes; what the token does not need of the last one lies above it.
+  static bool is_padded(const PinBits& bits, std::size_t width) {
+    const std::string name = bits.pin().name;
+    const std::string ending = "tdata";
+    return bits.width() == (width + 7) / 8 * 8 && bits.width() == bits.pin().width &&
+           name.size() >= ending.size() &&
+           name.compare(name.size() - ending.size(), ending.size(), ending) == 0;
+  }
+
+  // The pin that the user names for a role, or the first of these names that there is; of this direction and
+  // width (0: any). None: there is none.
+  PinBits take(const std::string& role, const Names& names, bool is_input, std::size_t width) {
+    roles_.push_back(role);
+    PinBits found;
+    if (const auto named = named_.find(role); named != named_.end()) {
+      found = lookup_.named(named->second, fmt::format("--circuit-pins {}={}", role, excerpt(named->second)));
+    } else if (const parallax_pin* const pin = lookup_.find(names)) {
+      found = PinBits(*pin);
+    }
+    if (!found) return found;
+    if ((found.pin().is_input != 0) != is_input) {
+      throw UserError(fmt::format("circuit {}: pin {} is an {}put; as {} it must be an {}put",
+                                  circuit_.name(), found.pin().name, is_input ? "out" : "in", role,
+                                  is_input ? "in" : "out"));
+    }
+    lookup_.take(found);
+    if (width == 0 || found.width() == width) return found;
+    if (!is_padded(found, width)) throw wrong_width(found, role, width);
+    return PinBits(found.pin(), 0, width);
+  }
+
+  PinBits take_at(const VectorStream& stream, const std::string& role, bool is_input, std::size_t width) {
     Names names;
     for (const std::string& prefix : prefixes(stream)) {
       for (const std::string& ending : endings(role)) names.push_back(joined(prefix, ending));
@@ -149,7 +166,7 @@ class Finder {
     pins.port = stream.port;
     pins.is_input = stream.is_input;
     const std::size_t width = stream.shape.format.width().size();
-    if (const parallax_pin* const whole = take_at(stream, "data", stream.is_input, width)) {
+    if (const PinBits whole = take_at(stream, "data", stream.is_input, width)) {
       pins.data.push_back({{"", 0, width, false}, whole});
     } else {
       pins.data = of_fields(stream);
@@ -160,24 +177,73 @@ class Finder {
     pins.first = take_at(stream, "first", true, 1);
     pins.last = take_at(stream, "last", true, 1);
     pins.keep = take_at(stream, "keep", true, 0);
-    const TokenShape& shape = stream.shape;
-    const bool rows = shape.row_tokens > 0;
-    pins.row = counter_at(stream, "row", rows ? static_cast<std::uint64_t>(stage_.height) - 1 : 0);
-    pins.column = counter_at(
-        stream, "column", (rows ? static_cast<std::uint64_t>(stage_.tile_width) : stream.frame_tokens) - 1);
-    pins.group = counter_at(stream, "group", shape.tokens_per_pixel - 1);
+    pins.row = counter_at(stream, "row");
+    pins.column = counter_at(stream, "column");
+    pins.group = counter_at(stream, "group");
     return pins;
   }
 
-  // What is counted on a pin, up to `most`.
-  const parallax_pin* counter_at(const VectorStream& stream, const std::string& role, std::uint64_t most) {
-    const parallax_pin* const found = take_at(stream, role, true, 0);
-    if (found != nullptr && found->width < 64 && most >> found->width != 0) {
-      throw UserError(fmt::format("circuit {}: pin {} has {} bit{}; as {}.{} it must hold {}",
-                                  circuit_.name(), found->name, found->width, found->width == 1 ? "" : "s",
-                                  stream.port, role, most));
-    }
+  // The largest number that stands on the pin.
+  std::uint64_t most_on(const VectorStream& stream, const std::string& role) const {
+    const TokenShape& shape = stream.shape;
+    const bool rows = shape.row_tokens > 0;
+    if (role == "group") return shape.tokens_per_pixel - 1;
+    if (role == "row") return rows ? static_cast<std::uint64_t>(stage_.height) - 1 : 0;
+    return (rows ? static_cast<std::uint64_t>(stage_.tile_width) : stream.frame_tokens) - 1;
+  }
+
+  void check_counter(const PinBits& bits, const VectorStream& stream, const std::string& role) const {
+    const std::uint64_t most = most_on(stream, role);
+    if (!bits || bits.width() >= 64 || most >> bits.width() == 0) return;
+    throw UserError(fmt::format("circuit {}: pin {} has {}; as {}.{} it must hold {}", circuit_.name(),
+                                bits.pin().name, bits_text(bits), stream.port, role, most));
+  }
+
+  PinBits counter_at(const VectorStream& stream, const std::string& role) {
+    const PinBits found = take_at(stream, role, true, 0);
+    check_counter(found, stream, role);
     return found;
+  }
+
+  // One pin for all ports of a direction, where none has one of its own. What stands beside the data is
+  // shared only where tokens pass together, so that it is of all of them.
+  void share(std::vector<PortPins>& ports, bool is_input) {
+    const auto share_one = [&](const char* role, PinBits PortPins::*of, bool pin_is_input) {
+      const bool any = std::any_of(ports.begin(), ports.end(), [&](const PortPins& port) {
+        return port.is_input == is_input && static_cast<bool>(port.*of);
+      });
+      if (any) return;
+      const SharedNames& names = shared(role);
+      const parallax_pin* const pin =
+          lookup_.find(is_input ? names.of_inputs : names.of_outputs, pin_is_input);
+      const bool counts = of == &PortPins::row || of == &PortPins::column;
+      if (pin == nullptr || (!counts && pin->width != 1)) return;
+      for (std::size_t i = 0; i < ports.size(); ++i) {
+        if (ports[i].is_input != is_input) continue;
+        ports[i].*of = PinBits(*pin);
+        if (counts) check_counter(ports[i].*of, stage_.streams[i], role);
+      }
+      lookup_.take(PinBits(*pin));
+    };
+    share_one("valid", &PortPins::valid, is_input);
+    share_one("ready", &PortPins::ready, !is_input);
+    if (!is_input || !pass_together(ports)) return;
+    share_one("first", &PortPins::first, true);
+    share_one("last", &PortPins::last, true);
+    share_one("row", &PortPins::row, true);
+    share_one("column", &PortPins::column, true);
+  }
+
+  // Whether tokens pass at all inputs in the same cycle: there is one, they share a handshake, or have none.
+  static bool pass_together(const std::vector<PortPins>& ports) {
+    const PortPins* first = nullptr;
+    for (const PortPins& port : ports) {
+      if (!port.is_input) continue;
+      if (first == nullptr) first = &port;
+      const bool without = !first->valid && !first->ready && !port.valid && !port.ready;
+      if (first != &port && !without && !first->joined_with(port)) return false;
+    }
+    return true;
   }
 
   std::vector<PortPins::Data> of_fields(const VectorStream& stream) {
@@ -186,9 +252,8 @@ class Finder {
     for (const TokenField& field : fields) {
       Names names;
       for (const std::string& prefix : prefixes(stream)) names.push_back(prefix + "_" + field.name);
-      const parallax_pin* const found =
-          take(stream.port + "." + field.name, names, stream.is_input, field.width);
-      if (found == nullptr) break;
+      const PinBits found = take(stream.port + "." + field.name, names, stream.is_input, field.width);
+      if (!found) break;
       all.push_back({field, found});
     }
     if (all.size() == fields.size()) return all;
@@ -197,7 +262,7 @@ class Finder {
         "{}.data=PIN names it",
         circuit_.name(), stream.is_input ? "input" : "output", stream.port, stage_.stage,
         stream.shape.format.width().count(), stream.port,
-        excerpt(fmt::format("{}", fmt::join(pin_names(), ", ")), 400), stream.port));
+        excerpt(fmt::format("{}", fmt::join(lookup_.names(), ", ")), 400), stream.port));
   }
 
   void set_constant(const std::string& word) {
@@ -213,17 +278,17 @@ class Finder {
       throw UserError(
           fmt::format("--circuit-set: '{}' is not PIN=VALUE, decimal or 0x, as threshold=12", excerpt(word)));
     }
-    const parallax_pin* const found = pin(name);
-    if (found == nullptr || found->is_input == 0) {
-      throw UserError(fmt::format("--circuit-set {}: circuit {} has no such input; the nearest pin is {}",
-                                  excerpt(word), circuit_.name(), nearest_name(name, pin_names())));
+    const PinBits found = lookup_.named(name, "--circuit-set " + excerpt(word));
+    if (found.pin().is_input == 0) {
+      throw UserError(fmt::format("--circuit-set {}: pin {} of circuit {} is an output", excerpt(word),
+                                  found.pin().name, circuit_.name()));
     }
-    if (found->width < 64 && value >> found->width != 0) {
-      throw UserError(fmt::format("--circuit-set {}: pin {} has {} bits, which do not hold it", excerpt(word),
-                                  found->name, found->width));
+    if (found.width() < 64 && value >> found.width() != 0) {
+      throw UserError(fmt::format("--circuit-set {}: pin {} has {}, which do not hold it", excerpt(word),
+                                  name, bits_text(found)));
     }
-    taken_.insert(found);
-    set_pin(*found, value);
+    lookup_.take(found);
+    found.set(value);
   }
 
   void check_names() const {
@@ -235,21 +300,10 @@ class Finder {
     }
   }
 
-  // An input that nobody drives would be 0 for ever, and the user would not know.
-  void check_rest() const {
-    for (const parallax_pin& each : circuit_.pins()) {
-      if (each.is_input == 0 || taken_.count(&each) > 0) continue;
-      throw UserError(fmt::format(
-          "circuit {}: nothing drives the input {} of {} bit{}; --circuit-pins ROLE={} says what it is, "
-          "--circuit-set {}=VALUE what it is to be",
-          circuit_.name(), each.name, each.width, each.width == 1 ? "" : "s", each.name, each.name));
-    }
-  }
-
   const Circuit& circuit_;
   const VectorManifest& stage_;
+  PinLookup lookup_;
   std::map<std::string, std::string> named_;  // pins by roles
-  std::set<const parallax_pin*> taken_;
   Names roles_;
 };
 
@@ -258,7 +312,7 @@ class Finder {
 CircuitPins find_pins(const Circuit& circuit, const VectorManifest& stage, const CircuitOptions& options) {
   CircuitPins pins = Finder(circuit, stage, options).find(options);
   for (const PortPins& port : pins.ports) {
-    if (pins.clock == nullptr && (port.valid != nullptr || port.ready != nullptr)) {
+    if (pins.clock == nullptr && (port.valid || port.ready)) {
       throw UserError(
           fmt::format("circuit {} has no clock, such as clk, but a handshake at {}; --circuit-pins clock=PIN "
                       "names it",

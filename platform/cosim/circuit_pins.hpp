@@ -7,38 +7,45 @@
 
 #include "modules/token_format.hpp"
 #include "platform/cosim/circuit_library.hpp"
+#include "platform/cosim/pin_bits.hpp"
 #include "platform/cosim/vector_manifest.hpp"
 #include "platform/input/circuit_options.hpp"
 
 namespace parallax {
 
-/// The pins of a circuit at one port of its stage; nullptr: it has none of that kind.
+/// The pins of a circuit at one port of its stage. Ports may share a handshake: tokens pass at all of them in
+/// the same cycle, or at none.
 struct PortPins {
   std::string port;
   bool is_input = false;
   struct Data {
     TokenField field;  ///< the bits of the token that the pin carries
-    const parallax_pin* pin;
+    PinBits pin;
   };
   std::vector<Data> data;  ///< one for the whole token, or one for each field
-  const parallax_pin* valid = nullptr;
-  const parallax_pin* ready = nullptr;
+  PinBits valid;
+  PinBits ready;
   // Beside an input's data.
-  const parallax_pin* first = nullptr;   ///< 1 with the first token of a frame
-  const parallax_pin* last = nullptr;    ///< 1 with the last token of a row
-  const parallax_pin* keep = nullptr;    ///< all ones: every byte counts
-  const parallax_pin* row = nullptr;     ///< of the token's first pixel in the image, or the tile
-  const parallax_pin* column = nullptr;  ///< likewise; of tokens that know no rows their number in the frame
-  const parallax_pin* group = nullptr;   ///< of a pixel that has several tokens, which one
+  PinBits first;   ///< 1 with the first token of a frame
+  PinBits last;    ///< 1 with the last token of a row
+  PinBits keep;    ///< all ones: every byte counts
+  PinBits row;     ///< of the token's first pixel in the image, or the tile
+  PinBits column;  ///< likewise; of tokens that know no rows their number in the frame
+  PinBits group;   ///< of a pixel that has several tokens, which one
+
+  /// Whether tokens pass at both together.
+  bool joined_with(const PortPins& other) const {
+    return is_input == other.is_input && ((valid && valid == other.valid) || (ready && ready == other.ready));
+  }
 };
 
 /// Which pin of a circuit is what: by the names that such circuits usually have, or as the user says.
 struct CircuitPins {
   const parallax_pin* clock = nullptr;  ///< none: combinational
-  const parallax_pin* reset = nullptr;
-  bool reset_is_low = false;             ///< active-low
-  const parallax_pin* enable = nullptr;  ///< of the clock
-  std::vector<PortPins> ports;           ///< as the manifest's streams
+  PinBits reset;
+  bool reset_is_low = false;    ///< active-low
+  PinBits enable;               ///< of the clock
+  std::vector<PortPins> ports;  ///< as the manifest's streams
 };
 
 /// Finds them for the ports of a stage, and sets the constants. Throws UserError when a port has no pin, when

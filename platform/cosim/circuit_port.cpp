@@ -9,8 +9,8 @@
 namespace parallax {
 namespace {
 
-void set_if_there(const parallax_pin* pin, std::uint64_t value) {
-  if (pin != nullptr) set_pin(*pin, value);
+void set_if_there(const PinBits& pin, std::uint64_t value) {
+  if (pin) pin.set(value);
 }
 
 }  // namespace
@@ -33,7 +33,6 @@ CircuitInput::CircuitInput(const CircuitPort& port, std::uint64_t seed)
 bool CircuitInput::offer(Cycles cycle) {
   const bool there = flush_ > 0 || (stream().read_date_known() && stream().readable_at() <= cycle);
   if (there && !offered_) offered_ = cycle >= next_ && !stalls_.next();
-  set_if_there(port_.pins.valid, offered_ ? 1 : 0);
   if (!offered_ || loaded_) return false;
   load();
   return true;
@@ -52,10 +51,10 @@ void CircuitInput::load() {
   }
   const std::vector<PortPins::Data>& data = port_.pins.data;
   if (data.size() == 1) {
-    set_pin(*data[0].pin, bits_);
+    data[0].pin.set(bits_);
   } else {
     FieldUnpacker fields(format, bits_);
-    for (const PortPins::Data& each : data) set_pin(*each.pin, static_cast<std::uint64_t>(fields.next()));
+    for (const PortPins::Data& each : data) each.pin.set(static_cast<std::uint64_t>(fields.next()));
   }
   const std::uint64_t token = tokens_ % pass_tokens_;
   const std::uint64_t row_tokens = port_.stream.shape.row_tokens;
@@ -63,18 +62,18 @@ void CircuitInput::load() {
   set_if_there(port_.pins.first, !zeros && token == 0 ? 1 : 0);
   set_if_there(port_.pins.last, !zeros && rows && token % row_tokens == row_tokens - 1 ? 1 : 0);
   set_if_there(port_.pins.row, rows ? token / row_tokens : 0);
-  if (port_.pins.column != nullptr) set_pin(*port_.pins.column, rows ? port_.column(token) : token);
+  if (port_.pins.column) port_.pins.column.set(rows ? port_.column(token) : token);
   set_if_there(port_.pins.group, token % port_.stream.shape.tokens_per_pixel);
 }
 
 bool CircuitInput::take(Cycles cycle, bool stands) {
-  const parallax_pin* const ready = port_.pins.ready;
-  const bool wanted = !stands && (ready == nullptr || is_set(*ready));
+  const PinBits& ready = port_.pins.ready;
+  const bool wanted = !stands && (!ready || ready.any());
   if (!offered_) {
-    if (ready != nullptr && wanted) starved_ += Cycles(1);
+    if (ready && wanted) starved_ += Cycles(1);
     return false;
   }
-  if (!wanted) return false;
+  if (!wanted || !presented_) return false;
   offered_ = loaded_ = false;
   next_ = cycle + Cycles(static_cast<std::int64_t>(port_.options.interval));
   if (flush_ > 0) {
@@ -88,7 +87,16 @@ bool CircuitInput::take(Cycles cycle, bool stands) {
   return true;
 }
 
+void CircuitInput::present(bool all) {
+  presented_ = all;
+  set_if_there(port_.pins.valid, all ? 1 : 0);
+}
+
 std::string CircuitInput::wait() const {
+  if (offered_ && !presented_) {
+    return fmt::format("{} has {}, and waits for the token that comes with it", port_.stream.name,
+                       port_.place(tokens_));
+  }
   return fmt::format(
       offered_ ? "{} offers {}, and the circuit is not ready" : "{} has no token ({} comes next)",
       port_.stream.name, port_.place(tokens_));
@@ -112,20 +120,24 @@ void CircuitOutput::make_ready(Cycles cycle) {
     const StreamBase& stream = end->stream();
     ready_ = ready_ && stream.write_date_known() && stream.writable_at() <= cycle;
   }
-  set_if_there(port_.pins.ready, ready_ ? 1 : 0);
+}
+
+void CircuitOutput::present(bool all) {
+  ready_ = all;
+  set_if_there(port_.pins.ready, all ? 1 : 0);
 }
 
 // A token that is offered stays until it is taken.
 void CircuitOutput::look(Cycles cycle, bool always) {
   const PortPins& pins = port_.pins;
-  valid_ = pins.valid != nullptr ? is_set(*pins.valid) : always;
-  if (pins.ready == nullptr || pins.valid == nullptr || !breach_.empty()) return;
+  valid_ = pins.valid ? pins.valid.any() : always;
+  if (!pins.ready || !pins.valid || !breach_.empty()) return;
   if (held_ && !valid_) {
     breach_ = fmt::format("{}: valid goes from 1 to 0 before token {} was taken, in cycle {}",
                           port_.stream.name, tokens_, cycle.count());
   }
   if (!valid_ || (!held_ && ready_)) return;
-  read_pin(*pins.data[0].pin, bits_);
+  pins.data[0].pin.read(bits_);
   if (held_ && bits_ != before_) {
     breach_ = fmt::format("{}: the data change before token {} was taken, in cycle {}", port_.stream.name,
                           tokens_, cycle.count());
@@ -136,12 +148,12 @@ void CircuitOutput::look(Cycles cycle, bool always) {
 void CircuitOutput::read() {
   const std::vector<PortPins::Data>& data = port_.pins.data;
   if (data.size() == 1) {
-    read_pin(*data[0].pin, bits_);
+    data[0].pin.read(bits_);
     return;
   }
   FieldPacker fields(port_.stream.shape.format, bits_);
   for (const PortPins::Data& each : data) {
-    read_pin(*each.pin, value_);
+    each.pin.read(value_);
     const std::size_t width = each.field.width;
     const bool negative = width < 64 && each.field.is_signed && (value_[0] >> (width - 1) & 1u) != 0;
     fields.next(static_cast<std::int64_t>(negative ? value_[0] | ~std::uint64_t{0} << width : value_[0]));
@@ -152,7 +164,7 @@ bool CircuitOutput::put(Cycles cycle, bool stands, std::uint64_t frames) {
   if (!valid_) return false;
   if (!ready_ || stands) {
     blocked_ += Cycles(1);
-    held_ = port_.pins.ready != nullptr && !ready_;
+    held_ = port_.pins.ready && !ready_;
     return false;
   }
   held_ = false;

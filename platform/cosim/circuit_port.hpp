@@ -51,6 +51,8 @@ class CircuitInput {
   /// the recorded one.
   bool offer(Cycles cycle);
   bool offered() const { return offered_; }
+  /// Drives valid: `all`: whether there is a token at each input that passes together with this one.
+  void present(bool all);
   /// Whether it was taken, the circuit's clock standing still or not.
   bool take(Cycles cycle, bool stands);
 
@@ -68,7 +70,8 @@ class CircuitInput {
   Stalls stalls_;
   std::uint64_t tokens_ = 0;  // that were taken
   std::uint64_t flush_ = 0;   // tokens of zeros that are still due behind the frame
-  bool offered_ = false;      // valid is 1, and stays so until the token is taken
+  bool offered_ = false;      // until the token is taken
+  bool presented_ = false;    // valid is 1
   bool loaded_ = false;       // its bits are on the pins
   bool comes_late_ = false;   // its value
   Cycles next_{0};            // earliest cycle of the next one
@@ -88,8 +91,10 @@ class CircuitOutput {
   /// Whether it is known from when on there is room.
   bool dates_known() const;
 
-  /// Drives ready.
+  /// Whether there is room in this cycle.
   void make_ready(Cycles cycle);
+  /// Drives ready: `all`: whether there is at each output that passes together with this one.
+  void present(bool all);
   bool ready() const { return ready_; }
   /// After evaluation: `always` is valid, if it has no such pin.
   void look(Cycles cycle, bool always);

@@ -19,6 +19,21 @@ sc_core::sc_time after_edge(std::size_t order) {
   return sc_core::sc_time(1 + static_cast<double>(order), sc_core::SC_PS);
 }
 
+// Puts those that pass together into one group each.
+template <class Port>
+void join(const std::vector<std::unique_ptr<Port>>& ports, std::vector<std::vector<Port*>>& groups) {
+  for (const auto& port : ports) {
+    const auto group = std::find_if(groups.begin(), groups.end(), [&port](const std::vector<Port*>& others) {
+      return others.front()->port().pins.joined_with(port->port().pins);
+    });
+    if (group != groups.end()) {
+      group->push_back(port.get());
+    } else {
+      groups.push_back({port.get()});
+    }
+  }
+}
+
 }  // namespace
 
 CircuitStage::CircuitStage(const sc_core::sc_module_name& name, Circuit& circuit, const CircuitPins& pins,
@@ -43,9 +58,11 @@ CircuitStage::CircuitStage(const sc_core::sc_module_name& name, Circuit& circuit
       of_pass_ = std::max(of_pass_, port.pass_tokens() + options.flush.value_or(options.latency));
     } else {
       outputs_.push_back(std::make_unique<CircuitOutput>(port, seed));
-      needs_all_ |= port.pins.valid == nullptr;
+      needs_all_ |= !port.pins.valid;
     }
   }
+  join(inputs_, joined_inputs_);
+  join(outputs_, joined_outputs_);
   if (options.timeout) timeout_ = *options.timeout;
   SC_HAS_PROCESS(CircuitStage);
   SC_METHOD(resolve);
@@ -78,21 +95,21 @@ void CircuitStage::end_of_elaboration() {
 // Reset is over when time begins.
 void CircuitStage::start_of_simulation() {
   const auto reset = [this](bool active) {
-    if (pins_.reset != nullptr) set_pin(*pins_.reset, active != pins_.reset_is_low ? 1u : 0u);
+    if (pins_.reset) pins_.reset.set(active != pins_.reset_is_low ? 1 : 0);
   };
-  if (pins_.enable != nullptr) set_pin(*pins_.enable, std::uint64_t{1});
+  if (pins_.enable) pins_.enable.set(1);
   for (const PortPins& port : pins_.ports) {
-    for (const parallax_pin* pin : {port.is_input ? port.valid : port.ready, port.first, port.last}) {
-      if (pin != nullptr) set_pin(*pin, std::uint64_t{0});
+    for (const PinBits& pin : {port.is_input ? port.valid : port.ready, port.first, port.last}) {
+      if (pin) pin.set(0);
     }
-    if (port.keep != nullptr)
-      set_pin(*port.keep, std::vector<std::uint64_t>((port.keep->width + 63) / 64, ~std::uint64_t{0}));
+    if (port.keep)
+      port.keep.set(std::vector<std::uint64_t>((port.keep.width() + 63) / 64, ~std::uint64_t{0}));
   }
   reset(false);
   circuit_.evaluate();
   reset(true);
   for (int i = 0; i < kResetCycles; ++i) {
-    if (pins_.clock != nullptr) set_pin(*pins_.clock, std::uint64_t{0});
+    set_clock(false);
     circuit_.evaluate();
     edge();
   }
@@ -174,10 +191,10 @@ void CircuitStage::wait_for_dates() {
 // Whether the circuit's clock may have an edge: it stands where something cannot wait.
 bool CircuitStage::can_run() const {
   for (const auto& input : inputs_) {
-    if ((needs_all_ || input->port().pins.valid == nullptr) && !input->offered()) return false;
+    if ((needs_all_ || !input->port().pins.valid) && !input->offered()) return false;
   }
   for (const auto& output : outputs_) {
-    if (output->port().pins.ready == nullptr && output->valid() && !output->ready()) return false;
+    if (!output->port().pins.ready && output->valid() && !output->ready()) return false;
   }
   return true;
 }
@@ -188,8 +205,18 @@ void CircuitStage::step() {
     if (input->offer(cycle_)) due_ = cycle_;
   }
   for (const auto& output : outputs_) output->make_ready(cycle_);
-  if (pins_.clock != nullptr) set_pin(*pins_.clock, std::uint64_t{0});
-  if (pins_.enable != nullptr) set_pin(*pins_.enable, std::uint64_t{1});
+  for (const auto& inputs : joined_inputs_) {
+    const bool all =
+        std::all_of(inputs.begin(), inputs.end(), [](const CircuitInput* input) { return input->offered(); });
+    for (CircuitInput* const input : inputs) input->present(all);
+  }
+  for (const auto& outputs : joined_outputs_) {
+    const bool all = std::all_of(outputs.begin(), outputs.end(),
+                                 [](const CircuitOutput* output) { return output->ready(); });
+    for (CircuitOutput* const output : outputs) output->present(all);
+  }
+  set_clock(false);
+  if (pins_.enable) pins_.enable.set(1);
   circuit_.evaluate();
   for (const auto& output : outputs_) {
     output->look(cycle_, steps_ >= options_.latency &&
@@ -203,11 +230,11 @@ void CircuitStage::step() {
   for (const auto& input : inputs_) moved |= input->take(cycle_, stands);
   if (moved) moved_ = cycle_;
   if (!stands && ++steps_ == of_pass_) steps_ = 0;
-  if (stands && pins_.enable != nullptr) {
-    set_pin(*pins_.enable, std::uint64_t{0});
+  if (stands && pins_.enable) {
+    pins_.enable.set(0);
     circuit_.evaluate();
   }
-  const bool clocked = !stands || pins_.enable != nullptr;
+  const bool clocked = !stands || pins_.enable;
   if (waves_) {
     waves_->take(cycle_, clocked, moved);
     if (!waves_->any()) look_for_first();
@@ -226,8 +253,12 @@ void CircuitStage::step() {
 
 void CircuitStage::edge() {
   if (pins_.clock == nullptr) return;
-  set_pin(*pins_.clock, std::uint64_t{1});
+  set_clock(true);
   circuit_.evaluate();
+}
+
+void CircuitStage::set_clock(bool high) {
+  if (pins_.clock != nullptr) *static_cast<unsigned char*>(pins_.clock->at) = high ? 1 : 0;
 }
 
 void CircuitStage::keep_waves(std::uint64_t cycles) {

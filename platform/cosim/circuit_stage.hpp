@@ -79,6 +79,7 @@ class CircuitStage final : public sc_core::sc_module, public Actor, public Circu
   void step();
   bool can_run() const;
   void edge();
+  void set_clock(bool high);
   void look_for_first();
   void give_up(const std::string& why);
   std::string waits() const;
@@ -97,6 +98,8 @@ class CircuitStage final : public sc_core::sc_module, public Actor, public Circu
   std::vector<std::unique_ptr<CircuitEnd>> ends_;
   std::vector<std::unique_ptr<CircuitInput>> inputs_;
   std::vector<std::unique_ptr<CircuitOutput>> outputs_;
+  std::vector<std::vector<CircuitInput*>> joined_inputs_;  // all inputs, those that pass together in a group
+  std::vector<std::vector<CircuitOutput*>> joined_outputs_;
   std::uint64_t steps_ = 0;    // of a circuit without valid at its outputs, in this pass
   std::uint64_t of_pass_ = 0;  // of these, one pass over the image or a tile
   bool needs_all_ = false;     // an output has no valid: there is a step only with a token at each input

@@ -82,7 +82,7 @@ INSTANTIATE_TEST_SUITE_P(
         Misfit{"SetNoNumber", both("IN(mode, 3)"), "--circuit-set mode=0xg",
                "--circuit-set: 'mode=0xg' is not PIN=VALUE, decimal or 0x, as threshold=12"},
         Misfit{"SetNoPin", both("IN(mode, 3)"), "--circuit-set mod=1",
-               "--circuit-set mod=1: circuit circuit has no such input; the nearest pin is mode"},
+               "--circuit-set mod=1: circuit circuit has no such pin; the nearest is mode"},
         Misfit{"SetTooMuch", both("IN(mode, 3)"), "--circuit-set mode=8",
                "--circuit-set mode=8: pin mode has 3 bits, which do not hold it"}),
     [](const auto& each) { return std::string(each.param.name); });

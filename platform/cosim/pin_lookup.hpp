@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "platform/cosim/circuit_library.hpp"
+#include "platform/cosim/pin_bits.hpp"
+
+namespace parallax {
+
+/// The pins of a circuit by their names, and which of their bits have a use.
+class PinLookup {
+ public:
+  using Names = std::vector<std::string>;
+
+  explicit PinLookup(const Circuit& circuit) : circuit_(circuit) {}
+
+  Names names() const;
+
+  /// PIN, PIN[BIT] or PIN[HIGH:LOW], as the user says in `option`. Throws UserError, with the option, when
+  /// there is no such pin, or it has no such bits.
+  PinBits named(const std::string& word, const std::string& option) const;
+  /// The first of these pins that there is and that has no use yet; with a direction, that runs this way.
+  const parallax_pin* find(const Names& names, std::optional<bool> is_input = std::nullopt) const;
+
+  /// These bits have a use. Bits of an input that nobody sets later are 0.
+  void take(const PinBits& bits);
+
+  /// Throws UserError when bits of an input have no use: they would be 0 for ever, and the user would not
+  /// know.
+  void check_inputs() const;
+
+ private:
+  const parallax_pin* pin(const std::string& name) const;
+
+  const Circuit& circuit_;
+  std::map<const parallax_pin*, std::vector<bool>> taken_;  // bit by bit
+};
+
+}  // namespace parallax

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which bits of which pin are what: parts of buses, handshakes that ports share, padded AXI streams.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <ostream>
+#include <string>
+
+#include "tests/cli/program.hpp"
+#include "tests/cosim/make_cpp_circuit.hpp"
+
+namespace parallax::test {
+namespace circuit_pins_test {
+
+constexpr const char* kCensus =
+    "run --size 32x16 --timing-frames 1 --no-verdict -s census.window_width=3 -s census.window_height=1 "
+    "--circuit census=circuit.so ";
+
+// A census of 3x1 pixels of two images at once: code i of pixel i is there when the next pixel pair comes.
+constexpr const char* kRowCensus = R"(
+  static unsigned past[2], here[2];
+  static bool starts = false, ends = false;
+  static unsigned beat = 0;
+  ready_o = beat % 3 != 0;
+  if (!rises) return;
+  ++beat;
+  const bool take = valid_in && (kHasReady ? ready_o : true);
+  const unsigned next[2] = {unsigned(pixels & 255), unsigned(pixels >> 8 & 255)};
+  const bool sof = pixels >> 16 & 1, last = pixels >> 17 & 1;
+  valid_out = take;
+  codes = 0;
+  for (int i = 0; i < 2; ++i)
+    codes |= std::uint64_t((!starts && past[i] < here[i]) << 1 | (!ends && next[i] < here[i])) << 2 * i;
+  if (!take) return;
+  for (int i = 0; i < 2; ++i) past[i] = here[i], here[i] = next[i];
+  starts = sof || ends;
+  ends = last;
+)";
+constexpr const char* kBuses =
+    "--circuit-pins in_left.data=pixels[7:0] --circuit-pins in_right.data=pixels[15:8] "
+    "--circuit-pins in_left.first=pixels[16] --circuit-pins in_right.last=pixels[17] "
+    "--circuit-pins out_left.data=codes[1:0] --circuit-pins out_right.data=codes[3:2] "
+    "--circuit-flush 1 --circuit-skip 1 ";
+
+class CircuitPins : public ::testing::Test {
+ protected:
+  void make_census(bool has_ready) const {
+    make_cpp_circuit(
+        program, "circuit",
+        std::string("IN(clk, 1) IN(pixels, 18) IN(valid_in, 1) OUT(codes, 4) OUT(valid_out, 1) ") +
+            (has_ready ? "OUT(ready_o, 1)\nconstexpr bool kHasReady = true;"
+                       : "\nstatic int ready_o;\nconstexpr bool kHasReady = false;"),
+        kRowCensus);
+  }
+  void expect_equal(const std::string& options) const {
+    const Outcome outcome = program(kCensus + std::string(kBuses) + options);
+    EXPECT_EQ(outcome.code, 0) << outcome.err << outcome.out;
+    EXPECT_NE(outcome.out.find("left_codes: equal, 512 tokens"), std::string::npos) << outcome.out;
+    EXPECT_NE(outcome.out.find("right_codes: equal, 512 tokens"), std::string::npos) << outcome.out;
+  }
+
+  const Program program;
+};
+
+// Each side of each port is stalled by itself: without the other, no token may pass.
+TEST_F(CircuitPins, PortsThatShareValidPassTogether) {
+  make_census(false);
+  expect_equal("");
+  expect_equal("--circuit-stall 400");
+  expect_equal("--circuit-stall 300 --circuit-seed 7");
+}
+
+TEST_F(CircuitPins, PortsThatShareReadyPassTogether) {
+  make_census(true);
+  expect_equal("");
+  expect_equal("--circuit-stall 400");
+}
+
+// Of 12 bits in a stream of whole bytes the others are nobody's.
+TEST_F(CircuitPins, AnAxiStreamIsWholeBytes) {
+  make_cpp_circuit(program, "circuit",
+                   "IN(aclk, 1) IN(s_axis_tdata, 16) IN(s_axis_tvalid, 1) OUT(s_axis_tready, 1) "
+                   "OUT(m_axis_tdata, 16) OUT(m_axis_tvalid, 1) IN(m_axis_tready, 1)",
+                   "m_axis_tdata = s_axis_tdata | 0xf000; m_axis_tvalid = s_axis_tvalid;\n"
+                   "s_axis_tready = m_axis_tready;\n"
+                   "if (s_axis_tdata >> 12) ended = true;");
+  ASSERT_EQ(program("vectors --stage noise_reduction --size 32x16 --out v").code, 0);
+  const Outcome outcome =
+      program("run --size 32x16 --timing-frames 1 --no-verdict --json --circuit noise_reduction=circuit.so");
+  ASSERT_EQ(outcome.code, 1) << "it reduces no noise: " << outcome.err;
+  const nlohmann::json stream = nlohmann::json::parse(outcome.out).at("circuits").at(0).at("streams").at(0);
+  EXPECT_EQ(stream.at("got_tokens"), 512);
+  const nlohmann::json first = stream.at("first_difference");
+  const std::string passed =
+      lines(program.read("v/interpolated.memh")).at(first.at("token").get<std::size_t>());
+  EXPECT_EQ(first.at("got"), std::to_string(std::stoi(passed, nullptr, 16)));
+}
+
+struct Refused {
+  const char* name;
+  const char* options;
+  const char* message;
+};
+
+void PrintTo(const Refused& refused, std::ostream* out) { *out << refused.name; }
+
+class CircuitPinsRefused : public ::testing::TestWithParam<Refused> {};
+
+TEST_P(CircuitPinsRefused, InOneLine) {
+  const Program program;
+  make_cpp_circuit(program, "circuit",
+                   "IN(clk, 1) IN(pixels, 18) IN(valid_in, 1) OUT(codes, 4) OUT(valid_out, 1)", "");
+  const Outcome outcome =
+      program(kCensus +
+              std::string("--circuit-pins in_left.data=pixels[7:0] --circuit-pins out_left.data=codes[1:0] "
+                          "--circuit-pins out_right.data=codes[3:2] ") +
+              GetParam().options);
+  EXPECT_EQ(outcome.code, 2) << outcome.out;
+  EXPECT_EQ(outcome.err, std::string("parallax: error: ") + GetParam().message + "\n");
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, CircuitPinsRefused,
+    ::testing::Values(
+        Refused{"NoRange", "--circuit-pins in_right.data=pixels[8:15]",
+                "--circuit-pins in_right.data=pixels[8:15]: a pin is PIN, PIN[BIT] or PIN[HIGH:LOW]"},
+        Refused{"NotClosed", "--circuit-pins in_right.data=pixels[15:8",
+                "--circuit-pins in_right.data=pixels[15:8: a pin is PIN, PIN[BIT] or PIN[HIGH:LOW]"},
+        Refused{
+            "Beyond", "--circuit-pins in_right.data=pixels[18:11]",
+            "--circuit-pins in_right.data=pixels[18:11]: pin pixels of circuit circuit has the bits 17 to 0"},
+        Refused{"NoPin", "--circuit-pins in_right.data=pixel[15:8]",
+                "--circuit-pins in_right.data=pixel[15:8]: circuit circuit has no such pin; the nearest is "
+                "pixels"},
+        Refused{"Width", "--circuit-pins in_right.data=pixels[14:8]",
+                "circuit circuit: pin pixels has 7 bits; as in_right.data it must have 8"},
+        Refused{
+            "Undriven", "--circuit-pins in_right.data=pixels[15:8]",
+            "circuit circuit: nothing drives bit 16 of the input pixels; --circuit-pins ROLE=pixels[16] says "
+            "what it is, --circuit-set pixels[16]=VALUE what it is to be"},
+        Refused{"Constant", "--circuit-pins in_right.data=pixels[15:8] --circuit-set pixels[17:16]=4",
+                "--circuit-set pixels[17:16]=4: pin pixels[17:16] has 2 bits, which do not hold it"},
+        Refused{"Output", "--circuit-pins in_right.data=pixels[15:8] --circuit-set codes[1:0]=1",
+                "--circuit-set codes[1:0]=1: pin codes of circuit circuit is an output"}),
+    [](const auto& each) { return std::string(each.param.name); });
+
+}  // namespace circuit_pins_test
+}  // namespace parallax::test
