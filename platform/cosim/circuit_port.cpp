@@ -107,7 +107,10 @@ CircuitOutput::CircuitOutput(const CircuitPort& port, std::uint64_t seed)
       pass_tokens_(port.pass_tokens()),
       stalls_(port.options.stall, seed),
       dump_{TokenWords(port.stream.shape.format.width().size()), {}},
-      skip_(port.options.skip) {}
+      skip_(port.options.skip) {
+  dump_.words.reserve(port.model.words.size());
+  dump_.cycles.reserve(port.model.cycles.size());
+}
 
 bool CircuitOutput::dates_known() const {
   return std::all_of(ends_.begin(), ends_.end(),

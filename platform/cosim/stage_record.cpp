@@ -31,22 +31,27 @@ class Parts {
  public:
   explicit Parts(const std::string& text) : text_(text) {}
   std::string next() {
-    std::uint64_t size = 0;
-    std::memcpy(&size, text_.data() + at_, sizeof size);
-    at_ += sizeof size;
-    std::string part = text_.substr(at_, size);
+    const std::size_t size = next_size();
     at_ += size;
-    return part;
+    return text_.substr(at_ - size, size);
   }
   template <class T>
   std::vector<T> numbers() {
-    const std::string bytes = next();
-    std::vector<T> all(bytes.size() / sizeof(T));
-    std::memcpy(all.data(), bytes.data(), all.size() * sizeof(T));
+    const std::size_t size = next_size();
+    std::vector<T> all(size / sizeof(T));
+    std::memcpy(all.data(), text_.data() + at_, all.size() * sizeof(T));
+    at_ += size;
     return all;
   }
 
  private:
+  std::size_t next_size() {
+    std::uint64_t size = 0;
+    std::memcpy(&size, text_.data() + at_, sizeof size);
+    at_ += sizeof size;
+    return size;
+  }
+
   const std::string& text_;
   std::size_t at_ = 0;
 };
@@ -79,6 +84,9 @@ struct Recording {
       manifest.streams[i].frame_tokens = manifest.streams[i].tokens / static_cast<std::uint64_t>(frames);
     }
     const std::string json = to_json(manifest).dump();
+    std::size_t size = text.size() + json.size() + 64 * (1 + all.size());  // with their lengths
+    for (const Port& port : all) size += 8 * (port.bits.size() + port.cycles.size());
+    text.reserve(size);
     append_part(text, json.data(), json.size());
     for (const Port& port : all) {
       append_numbers(text, port.bits);

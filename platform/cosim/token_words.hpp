@@ -22,6 +22,9 @@ class TokenWords {
     bits_ = std::move(bits);
   }
 
+  /// Makes room for so many.
+  void reserve(std::uint64_t tokens) { bits_.reserve(tokens * stride_); }
+
   std::size_t width() const { return width_; }  ///< bits
   std::uint64_t size() const { return bits_.size() / stride_; }
 
