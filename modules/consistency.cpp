@@ -47,7 +47,6 @@ Consistency::Consistency(const ConsistencyConfig& config, DisparityRange range, 
 std::int64_t Consistency::storage_bits(int at_once) const {
   if (!config_.enabled) return 0;
   constexpr std::int64_t kRightPixelBits = 16 + 8;  // cost and disparity
-  constexpr std::int64_t kDisparityBits = 12;
   return at_once * (kRightPixelBits * range_.count + kDisparityBits * look_ahead_pixels());
 }
 

@@ -106,7 +106,6 @@ int GapInterpolation::look_ahead_pixels() const { return 0; }
 
 std::int64_t GapInterpolation::storage_bits(int at_once) const {
   if (!config_.enabled) return 0;
-  constexpr int kDisparityBits = 12;
   // A row is held until l_max more have come, with a bit per pixel for a masked border; each column also
   // keeps the edge above its run and its place in the run.
   std::int64_t position_bits = 1;

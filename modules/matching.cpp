@@ -289,7 +289,6 @@ std::int64_t Matching::storage_bits() const {
   const std::int64_t width = width_;
   const int count = config_.range().count;
   const auto in_row = [this](unsigned paths) { return path_count(config_.paths & paths); };
-  constexpr int kDisparityBits = 12;
   const std::int64_t at_once = config_.parallel_rows;
   std::int64_t pixels = at_once * path_count(config_.paths & (kPathW | kPathE));
   pixels += (at_once - 1) * kRowLag * std::max(in_row(kPathNW | kPathN | kPathNE), in_row(kSouthernPaths));

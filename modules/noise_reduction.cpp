@@ -138,7 +138,6 @@ int NoiseReduction::look_ahead_pixels() const { return config_.enabled ? half_ :
 
 std::int64_t NoiseReduction::storage_bits(int at_once) const {
   if (!config_.enabled) return 0;
-  constexpr int kDisparityBits = 12;
   const std::int64_t line_buffers = std::int64_t{2} * half_ * width_ * kDisparityBits;
   const std::int64_t window = std::int64_t{config_.side()} * (config_.side() + at_once - 1) * kDisparityBits;
   return line_buffers + window;

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "tlm/token_bits.hpp"
+
 namespace parallax {
 
 /// Image intensity, 8 bit.
@@ -53,6 +55,7 @@ inline constexpr auto kCauses = static_cast<std::size_t>(Cause::kEnd);
 /// 12-bit fixed-point disparity: 8 integer and 4 fraction bits; 0xFFF is invalid.
 inline constexpr std::uint16_t kInvalidDisparity = 0xFFF;
 inline constexpr int kDisparityFractionBits = 4;
+inline constexpr int kDisparityBits = 12;  ///< of its value, which is what the wires have of a disparity
 
 struct Disparity {
   std::uint16_t value = kInvalidDisparity;  ///< 1/16 px, or kInvalidDisparity
@@ -60,6 +63,9 @@ struct Disparity {
 
   bool valid() const { return value != kInvalidDisparity; }
 };
+
+template <>
+inline constexpr int kLeastBits<Disparity> = kDisparityBits;
 
 inline bool operator==(const Disparity& a, const Disparity& b) {
   return a.value == b.value && a.cause == b.cause;

@@ -73,7 +73,6 @@ int Speckle::look_ahead_rows() const { return config_.iterations * (config_.wind
 int Speckle::look_ahead_pixels() const { return config_.iterations * (config_.window / 2); }
 
 std::int64_t Speckle::storage_bits(int at_once) const {
-  constexpr int kDisparityBits = 12;
   const std::int64_t line_buffers = std::int64_t{config_.window - 1} * width_ * kDisparityBits;
   const std::int64_t window = std::int64_t{config_.window} * (config_.window + at_once - 1) * kDisparityBits;
   return config_.iterations * (line_buffers + window);

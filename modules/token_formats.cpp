@@ -27,7 +27,7 @@ TokenFormat cost_group_format(std::size_t costs, std::size_t cost_bits) {
   return TokenFormat().fields("cost", costs, cost_bits);
 }
 
-TokenFormat disparity_format() { return TokenFormat().field("disparity", 12); }
+TokenFormat disparity_format() { return TokenFormat().field("disparity", kDisparityBits); }
 
 TokenFormat path_record_format(std::size_t paths, std::size_t costs, std::size_t path_bits) {
   TokenFormat format;

@@ -11,6 +11,7 @@
 #include "tlm/listeners.hpp"
 #include "tlm/row_collector.hpp"
 #include "tlm/stream_base.hpp"
+#include "tlm/token_bits.hpp"
 
 namespace parallax {
 
@@ -34,7 +35,12 @@ class Stream final : public StreamBase {
  public:
   using Row = std::function<void(const T* row, std::size_t length)>;
 
-  using StreamBase::StreamBase;
+  /// Throws UserError as StreamBase does, and for a width that is less than kLeastBits<T>.
+  Stream(const char* name, Dataflow& dataflow, const ClockDomain& writer_clock,
+         const ClockDomain& reader_clock, const FifoConfig& config)
+      : StreamBase(name, dataflow, writer_clock, reader_clock, config) {
+    require_width(Bits(kLeastBits<T>));
+  }
 
   /// The reader takes rows of `length` values, which are collected where the writer delivers them piece by
   /// piece; with length 0 it takes them as they are sent.

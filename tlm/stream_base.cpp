@@ -73,6 +73,12 @@ StreamBase::StreamBase(const char* name, Dataflow& dataflow, const ClockDomain& 
   dataflow.add(*this);
 }
 
+void StreamBase::require_width(Bits tokens) const {
+  if (config_.inside_stage || config_.width >= tokens) return;  // inside there are no wires
+  throw UserError(fmt::format("stream '{}': its width is {} bits, and its tokens have {} (FifoConfig::width)",
+                              basename(), config_.width.count(), tokens.count()));
+}
+
 void StreamBase::attach_writer(const std::string& module, Actor* actor) {
   if (writer_name_ == kUnbound || module.size() > writer_name_.size()) {
     writer_name_ = module;

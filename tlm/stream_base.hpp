@@ -119,6 +119,8 @@ class StreamBase : public sc_core::sc_prim_channel, public virtual sc_core::sc_i
   std::uint32_t depth() const { return config_.depth; }
   Bits width() const { return config_.width; }
   Bits storage() const { return config_.width * config_.depth; }
+  /// Throws UserError, naming the stream, when it is narrower than its tokens, which have so many bits.
+  void require_width(Bits tokens) const;
   /// Whether the next token, which is there in cycle `date` of the reader's clock and was wanted in cycle
   /// `wanted`, had been written by then, so that it was the synchroniser alone that kept it back.
   bool token_behind_synchroniser(Cycles date, Cycles wanted) const {
@@ -225,6 +227,10 @@ class StreamBase : public sc_core::sc_prim_channel, public virtual sc_core::sc_i
   /// Notes for Leap that the reader (writer) was ready for the next token in cycle `ready`.
   void watch_read(Cycles ready) { note(read_watch_, ready, readable_at()); }
   void watch_write(Cycles ready) { note(write_watch_, ready, writable_at()); }
+
+  /// When the last token was read (written), as far as leaps under way are in the numbers; -1: none was.
+  Cycles last_read() const { return last_read_; }
+  Cycles last_written() const { return last_write_; }
 
   bool reader_waits() const { return reader_waits_; }
   bool writer_waits() const { return writer_waits_; }

@@ -67,6 +67,12 @@ TokenShape image_shape(const PixelUnpackConfig& config) {
   return bytes(config.burst.size(), cut_into_tokens(config.piece_bytes, config.burst.size()));
 }
 
+std::uint64_t bursts_of(const TokenShape& shape) {
+  std::uint64_t bursts = 0;
+  for (const TapConfig::Run& run : shape.runs) bursts += run.tokens;
+  return bursts;
+}
+
 // What is kept of a tile's row is a piece; of the only tile, all of them are one.
 TokenShape result_shape(const TilePlan& tiles, int height, const OutputPackingConfig& config) {
   const std::size_t burst = config.burst.size();
@@ -253,16 +259,19 @@ TokenShape Pipeline::cost_groups() const {
 
 void Pipeline::connect_inputs(const EncodedMap& map, const TilePlan& tiles) {
   const DmaConfig& dma = config_.dma;
-  const auto image = [&](const DmaPortConfig& port) {
-    return image_shape(image_bursts(tiles, context_, config_.camera.format, port));
+  const auto attach_image = [&](Stream<std::uint8_t>& bursts, const DmaPortConfig& port, const char* unpack) {
+    const PixelUnpackConfig image = image_bursts(tiles, context_, config_.camera.format, port);
+    const TokenShape shape = image_shape(image);
+    wiring_.attach(bursts, shape, {unpack, "in_bursts"}, bursts_of(shape) * image.pieces * tiles_);
   };
   const auto cut_map_into = [&map](std::size_t token) {
     return bytes(token, cut_into_tokens(map.bytes.size(), token));
   };
   const TokenShape gray = raster(gray_format());
-  wiring_.attach(left_bursts_, image(dma.left), {"unpack_left", "in_bursts"});
-  wiring_.attach(right_bursts_, image(dma.right), {"unpack_right", "in_bursts"});
-  wiring_.attach(map_bursts_, cut_map_into(dma.map.burst_bytes), {"unpack_map", "in_bursts"});
+  attach_image(left_bursts_, dma.left, "unpack_left");
+  attach_image(right_bursts_, dma.right, "unpack_right");
+  const TokenShape map_shape = cut_map_into(dma.map.burst_bytes);
+  wiring_.attach(map_bursts_, map_shape, {"unpack_map", "in_bursts"}, bursts_of(map_shape));
   wiring_.connect<Gray>("left_pixels", gray, {"unpack_left", "out_tokens"}, {"rectification", "in_left"});
   wiring_.connect<Gray>("right_pixels", gray, {"unpack_right", "out_tokens"}, {"rectification", "in_right"});
   wiring_.connect<std::uint8_t>("map_words", cut_map_into(dma.map.data_bits / 8),
@@ -306,10 +315,9 @@ std::string Pipeline::connect_filters(const TilePlan& tiles) {
     stream = filter->stream();
   }
   wiring_.connect<Disparity>(stream, disparity, from, {"output_packing", "in_disparity"});
-  wiring_.attach(
-      output_bursts_,
-      result_shape(tiles, context_.height, packing(tiles, config_.link.output_left(), config_.dma.output)),
-      {"output_packing", "out_bursts"});
+  const TokenShape shape =
+      result_shape(tiles, context_.height, packing(tiles, config_.link.output_left(), config_.dma.output));
+  wiring_.attach(output_bursts_, shape, {"output_packing", "out_bursts"}, bursts_of(shape));
   return stream;
 }
 

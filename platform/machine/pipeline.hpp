@@ -56,6 +56,12 @@ class Pipeline final : public sc_core::sc_module {
   /// Whether the values of all tokens come before their dates. Not where a block in kernel time, or a
   /// circuit, passes them on one by one: what works on rows behind it has them when the row is complete.
   bool values_in_time() const;
+  /// Whether there is a block in kernel time, circuits apart.
+  bool has_kernel_time_blocks() const { return wiring_.has_kernel_time_blocks(); }
+  /// "frame 0, row 1": where a token of a stream lies; empty where that is not known.
+  std::string place(const std::string& stream, std::uint64_t token) const {
+    return wiring_.place(stream, token);
+  }
   /// Upstream to downstream. Blocks in kernel time that replace stages are not among them.
   std::vector<StageInfo> stages() const;
   /// The names of the slots, upstream to downstream.
@@ -75,6 +81,7 @@ class Pipeline final : public sc_core::sc_module {
     Stream<std::uint8_t> returned;
   };
 
+  void start_of_simulation() override { wiring_.check_frames(); }
   TokenShape raster(const TokenFormat& format) const;
   TokenShape cost_groups() const;
   void place_inputs(const EncodedMap& map, const TilePlan& tiles);

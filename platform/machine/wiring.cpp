@@ -17,7 +17,7 @@ Wiring::Slot& Wiring::place(const std::string& name, const Facts& facts, const S
   if (replaced == replacements_.end()) replaced = replacements_.find(kAllOtherSlots);
   const bool is_usual = replaced == replacements_.end() || !replaced->second;
   const StageFactory& factory = is_usual ? usual : replaced->second;
-  auto slot = std::make_unique<Slot>(Slot{name, facts, factory(name, context_)});
+  auto slot = std::make_unique<Slot>(Slot{name, facts, factory(name, context_), is_usual});
   slot->content.storage += facts.storage;
   slots_.push_back(std::move(slot));
   return *slots_.back();

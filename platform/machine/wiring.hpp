@@ -12,6 +12,7 @@
 
 #include "platform/config/stream_config.hpp"
 #include "platform/machine/circuit_end.hpp"
+#include "platform/machine/frame_count.hpp"
 #include "platform/machine/stage_slot.hpp"
 #include "platform/machine/token_port.hpp"
 #include "platform/machine/token_shape.hpp"
@@ -41,6 +42,7 @@ class Wiring {
     std::string name;
     Facts facts;
     SlotModule content;
+    bool is_usual;  ///< no replacement
   };
   enum class Reads {
     kAhead,  ///< the reader looks ahead on this stream
@@ -69,21 +71,36 @@ class Wiring {
   template <class T>
   void connect(const std::string& stream, const TokenShape& shape, const PortName& from, const PortName& to,
                Reads reads = Reads::kAhead, bool groups = false);
-  /// One end of a stream that is there already: at a port of the memory.
+  /// One end of a stream that is there already: at a port of the memory. `frame_tokens`: of a frame, all
+  /// tiles of it; 0: not known.
   template <class T>
-  void attach(Stream<T>& stream, const TokenShape& shape, const PortName& port) {
+  void attach(Stream<T>& stream, const TokenShape& shape, const PortName& port,
+              std::uint64_t frame_tokens = 0) {
+    stream.require_width(shape.format.width());
     const bool is_input = bind<T>(stream, shape, port);
-    ends_.push_back({port, is_input, stream.basename(), shape,
+    ends_.push_back({port, is_input, stream.basename(), shape, frame_tokens,
                      [&stream, shape](bool reads, const TokenTap::Take& take) {
                        return std::make_unique<ValueTap<T>>(stream, shape, reads, take);
                      },
                      [&stream, shape, name = port.port, is_input] {
                        return std::make_unique<ValueEnd<T>>(name, !is_input, shape, stream);
+                     },
+                     [&stream, is_input, fields = kWiredFields<T>](FrameSize frame) {
+                       frame.values /= fields;
+                       return std::make_unique<ValueCount<T>>(stream, is_input, frame);
                      }});
   }
 
   /// Makes and binds the streams. Nothing can be placed or connected behind this.
   void build();
+  /// After elaboration. Throws UserError when by their schedules the stages at both ends of a stream do not
+  /// agree on the tokens of a frame; from then on what passes each slot is counted (FrameCount).
+  void check_frames();
+
+  /// "frame 0, row 1": where token number `token` of a stream lies; empty where that is not known.
+  std::string place(const std::string& stream, std::uint64_t token) const;
+  /// Whether what stands in a slot is neither a stage nor a circuit.
+  bool has_kernel_time_blocks() const;
 
   const std::vector<std::unique_ptr<Slot>>& slots() const { return slots_; }
   const Slot& slot(const std::string& name) const { return *slots_[index(name)]; }
@@ -108,13 +125,19 @@ class Wiring {
     bool is_input;
     std::string stream;
     TokenShape shape;
+    std::uint64_t frame_tokens;  // 0: not known
     std::function<std::unique_ptr<TokenTap>(bool reads, const TokenTap::Take& take)> tap;
     std::function<std::unique_ptr<CircuitEnd>()> opposite;
+    std::function<std::unique_ptr<PortCount>(FrameSize frame)> count;  // `frame.values` in fields
   };
 
   std::size_t index(const std::string& slot) const;
+  std::uint64_t frame_tokens(const TokenShape& shape) const;
   sc_core::sc_object& port(const PortName& name) const;
   [[noreturn]] static void misfit(const PortName& name);
+  std::uint64_t scheduled_tokens(const End& end) const;
+  FrameSize frame_size(const End& end) const;
+  void check_schedules(bool usual) const;
   // Says whether the port is an input.
   template <class T>
   bool bind(Stream<T>& stream, const TokenShape& shape, const PortName& name) const {
@@ -141,6 +164,7 @@ class Wiring {
   std::vector<Wire> wires_;
   std::vector<End> ends_;
   std::vector<std::unique_ptr<StreamBase>> streams_;
+  std::vector<std::unique_ptr<FrameCount>> counts_;
 };
 
 template <class T>
@@ -148,8 +172,8 @@ void Wiring::connect(const std::string& stream, const TokenShape& shape, const P
                      const PortName& to, Reads reads, bool groups) {
   const auto make = [this, shape, from, to](const char* name, const FifoConfig& fifo) {
     auto made = std::make_unique<Stream<T>>(name, context_.dataflow, context_.clock, context_.clock, fifo);
-    attach(*made, shape, from);
-    attach(*made, shape, to);
+    attach(*made, shape, from, frame_tokens(shape));
+    attach(*made, shape, to, frame_tokens(shape));
     return made;
   };
   wires_.push_back({stream, shape.format.width(), index(from.slot), index(to.slot), reads, groups, make});

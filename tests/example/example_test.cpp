@@ -24,9 +24,9 @@ class Chain {
         fill("fill", {2}, StageTiming{}, {clock_, dataflow_, kWidth, 1}),
         slow_("slow", clock_),
         sink("sink", clock_),
-        a_("a", dataflow_, clock_, clock_, {}),
-        b_("b", dataflow_, clock_, clock_, {}),
-        c_("c", dataflow_, clock_, clock_, {}) {
+        a_("a", dataflow_, clock_, clock_, {2, Bits(kDisparityBits)}),
+        b_("b", dataflow_, clock_, clock_, {2, Bits(kDisparityBits)}),
+        c_("c", dataflow_, clock_, clock_, {2, Bits(kDisparityBits)}) {
     source_.out(a_);
     fill.in_disparity(a_);
     fill.out_disparity(b_);

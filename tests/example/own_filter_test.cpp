@@ -85,7 +85,8 @@ TEST(OwnFilter, CanHaveARunTimeParameter) {
   row[0] = {100, Cause::kMatched};
   Source source("source", row, Sending::kRows, 4);
   Sink sink("sink", clock);
-  Stream<Disparity> in("in", dataflow, clock, clock, {}), out("out", dataflow, clock, clock, {});
+  const FifoConfig fifo{2, Bits(kDisparityBits)};
+  Stream<Disparity> in("in", dataflow, clock, clock, fifo), out("out", dataflow, clock, clock, fifo);
   source.out(in);
   made.stage->in_disparity(in);
   made.stage->out_disparity(out);
