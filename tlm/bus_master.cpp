@@ -43,11 +43,12 @@ void BusMaster::send(::tlm::tlm_generic_payload& payload, const sc_core::sc_time
                                                 sc_core::sc_time& delay) {
   const sc_core::sc_time& now = sc_core::sc_time_stamp();
   if (phase == ::tlm::END_REQ) {
-    request_ends(payload, std::max(find(payload)->time, now + delay));
+    if (requesting_ == &payload) request_ends(payload, std::max(find(payload)->time, now + delay));
     return ::tlm::TLM_ACCEPTED;
   }
   if (phase != ::tlm::BEGIN_RESP) return ::tlm::TLM_ACCEPTED;  // a phase that may be ignored
   const auto request = find(payload);
+  if (!is_next(payload, request)) return ::tlm::TLM_COMPLETED;
   const sc_core::sc_time date = std::max(request->time, now + delay);
   delay = date - now;
   const bool ends = requesting_ == &payload;
@@ -62,6 +63,7 @@ void BusMaster::send(::tlm::tlm_generic_payload& payload, const sc_core::sc_time
 // masters in order.
 void BusMaster::phase_due(::tlm::tlm_generic_payload& payload, const ::tlm::tlm_phase& phase) {
   const sc_core::sc_time& now = sc_core::sc_time_stamp();
+  if (!is_next(payload, find(payload))) return;
   request_ends(payload, now);
   if (phase == ::tlm::BEGIN_RESP) {
     ::tlm::tlm_phase end = ::tlm::END_RESP;
@@ -69,6 +71,36 @@ void BusMaster::phase_due(::tlm::tlm_generic_payload& payload, const ::tlm::tlm_
     socket->nb_transport_fw(payload, end, delay);
   }
   answered(find(payload), now);
+}
+
+// Whether this is the answer that is due. Bursts are handed on, and counted, in the order of their requests.
+bool BusMaster::is_next(const ::tlm::tlm_generic_payload& payload,
+                        std::vector<Request>::iterator request) const {
+  const auto what = [](const ::tlm::tlm_generic_payload& of) {
+    return fmt::format("the {} of {} bytes at {:#x}", of.is_write() ? "write" : "read", of.get_data_length(),
+                       of.get_address());
+  };
+  if (request == requests_.end()) {
+    SC_REPORT_ERROR("/parallax/dma/phase",
+                    fmt::format("{}: the target answers {}, which is not under way: it was answered before",
+                                name(), what(payload))
+                        .c_str());
+    return false;
+  }
+  if (request == requests_.begin()) return true;
+  SC_REPORT_ERROR("/parallax/dma/phase",
+                  fmt::format("{}: the target answers {} before {}, which was sent first; a port's requests "
+                              "are to be answered in their order",
+                              name(), what(payload), what(*requests_.front().payload))
+                      .c_str());
+  return false;
+}
+
+std::optional<BusRequest> BusMaster::oldest() const {
+  if (requests_.empty()) return std::nullopt;
+  const Request& request = requests_.front();
+  return BusRequest{request.payload->is_write(), request.payload->get_address(),
+                    request.payload->get_data_length(), request.time, requesting_ != request.payload};
 }
 
 // END_REQ, or an answer that implies it.

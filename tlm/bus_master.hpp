@@ -4,6 +4,7 @@
 #include <tlm_utils/peq_with_cb_and_phase.h>
 #include <tlm_utils/simple_initiator_socket.h>
 #include <cstdint>
+#include <optional>
 #include <systemc>
 #include <tlm>
 #include <vector>
@@ -21,6 +22,15 @@ struct BusStatistics {
 };
 
 class BusMaster;
+
+/// A request without an answer.
+struct BusRequest {
+  bool write = false;
+  std::uint64_t address = 0;
+  std::uint64_t bytes = 0;
+  sc_core::sc_time sent;
+  bool taken = false;  ///< the target has ended the request's phase
+};
 
 /// A request that has been answered.
 struct BusTransfer {
@@ -70,7 +80,8 @@ class BusMaster final : public sc_core::sc_module {
   sc_core::sc_time credit_at() const;
   /// Needs ready(). Sends a payload of the pool with its date, `time`: not before the present, credit_at(),
   /// and when the request before was taken. An answer that is an error is reported with SC_REPORT_ERROR
-  /// /parallax/dma/response.
+  /// /parallax/dma/response; one to a request that is not under way (it was answered before), or before that
+  /// of an older request, with /parallax/dma/phase.
   void send(::tlm::tlm_generic_payload& payload, const sc_core::sc_time& time);
   /// Functional accesses, in no time.
   void read_now(std::uint64_t address, std::uint8_t* data, std::size_t size) {
@@ -86,6 +97,8 @@ class BusMaster final : public sc_core::sc_module {
 
   /// Requests whose answer is not known.
   std::size_t in_flight() const { return requests_.size(); }
+  /// The oldest of these, if there is one.
+  std::optional<BusRequest> oldest() const;
 
   /// Time that requests were under way until now, summed over them: at most `outstanding` times the present
   /// time.
@@ -118,6 +131,7 @@ class BusMaster final : public sc_core::sc_module {
   void request_ends(::tlm::tlm_generic_payload& payload, const sc_core::sc_time& time);
   void answered(std::vector<Request>::iterator request, const sc_core::sc_time& time);
   std::vector<Request>::iterator find(const ::tlm::tlm_generic_payload& payload);
+  bool is_next(const ::tlm::tlm_generic_payload& payload, std::vector<Request>::iterator request) const;
 
   PayloadPool pool_;
   std::uint32_t outstanding_;

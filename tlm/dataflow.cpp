@@ -145,8 +145,11 @@ std::vector<Wait> Dataflow::deadlock() const { return closed_circle(waits()); }
 std::string describe(const std::vector<Wait>& cycle) {
   std::string text;
   for (const Wait& wait : cycle) {
-    text += fmt::format("  {} waits on stream {} ({}, depth {}) for {}\n", wait.waiter, wait.stream->name(),
-                        wait.on_full ? "full" : "empty", wait.stream->depth(), wait.other);
+    const StreamBase& stream = *wait.stream;
+    const bool in_kernel_time = (wait.on_full ? stream.writer() : stream.reader()) == nullptr;
+    text += fmt::format("  {}{} waits on stream {} ({}, depth {}) for {}\n", wait.waiter,
+                        in_kernel_time ? " (in kernel time)" : "", stream.name(),
+                        wait.on_full ? "full" : "empty", stream.depth(), wait.other);
   }
   return text;
 }

@@ -132,7 +132,8 @@ void Acquisition::expose_frames() {
 void Acquisition::expose_on_demand() {
   for (;;) {
     wait_for_buffer();
-    clock_.wait_until(next_on_demand());
+    next_ = next_on_demand();
+    clock_.wait_until(next_);
     ++counts_.triggers;
     expose_next();
     sc_core::wait(frame_complete_);

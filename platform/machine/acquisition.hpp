@@ -61,6 +61,10 @@ class Acquisition final : public sc_core::sc_module {
   const Sensor& sensor() const { return left_sensor_; }
   /// Until now.
   CameraCounts counts();
+  /// Whether a frame will be exposed at a later date, whatever happens until then.
+  bool frame_due() const {
+    return next_ > clock_.now() && buffers_used_ < static_cast<std::int64_t>(memory_map_.frames.size());
+  }
 
  private:
   void expose_frames();
@@ -104,7 +108,7 @@ class Acquisition final : public sc_core::sc_module {
   sc_core::sc_time exposed_;            // date of the last exposure
   CameraCounts counts_;
   std::optional<CameraTrigger> trigger_;  // of cameras with a rate
-  Cycles next_{0};                        // end of the next exposure at that rate
+  Cycles next_{0};                        // end of the next exposure, once it is known
 };
 
 }  // namespace parallax

@@ -60,7 +60,8 @@ Machine::Machine(const sc_core::sc_module_name& name, const MachineConfig& confi
                 }),
       host_(input_, tiles_, config_.link.output_left(),
             [this] { return input_.enough ? input_.enough(*this) : settled(); }),
-      ports_(collect_ports()) {
+      ports_(collect_ports()),
+      watchdog_("watchdog", watched()) {
   core_.pipeline().keep_frames(ledger_.kept());
   for (const MemoryPort* port : ports_) {
     if (memory_) {
@@ -121,6 +122,7 @@ void Machine::received(std::int64_t frame, const std::vector<std::uint8_t>& byte
 void Machine::start_of_simulation() {
   core_.find_stages();
   parts_ = collect_parts();
+  start_watchdog();
   if (input_.timing_only) return;
   core_.pipeline().results().add_row_listener(host_);
   ::tlm::tlm_generic_payload payload;

@@ -20,6 +20,7 @@
 #include "platform/machine/stereo_core.hpp"
 #include "platform/machine/tile_plan.hpp"
 #include "platform/machine/transmission.hpp"
+#include "platform/machine/watchdog.hpp"
 #include "tlm/memory.hpp"
 
 namespace parallax {
@@ -86,6 +87,8 @@ class Machine final : public sc_core::sc_module {
   std::vector<MemoryPort*> collect_ports();
   std::vector<Part> collect_parts() const;
   MachineSnapshot snapshot();
+  Watchdog::Watched watched();
+  void start_watchdog();
 
   const MachineConfig config_;
   const MachineInput input_;
@@ -106,6 +109,8 @@ class Machine final : public sc_core::sc_module {
   Host host_;
   const std::vector<MemoryPort*> ports_;
   std::vector<Part> parts_;
+  Watchdog watchdog_;
+  std::int64_t rejected_starts_ = 0;  // when the watchdog looked last
 };
 
 }  // namespace parallax

@@ -34,6 +34,12 @@ struct MachineInput {
   /// the machine's own. A TLM-2.0 target that keeps to the base protocol and answers transport_dbg; it must
   /// hold data unless `timing_only`.
   std::function<void(::tlm::tlm_initiator_socket<>& socket, const std::string& port)> bind_memory;
+  /// Cycles of the core's clock in which nothing may move, no frame being due at a date to come: then
+  /// SC_REPORT_ERROR /parallax/machine/hang says who holds the machine up. 0: never. None: where there is
+  /// another memory, or a block in kernel time in the place of a stage, at least a million and four times
+  /// what the slowest part takes for a frame; else never, as then the simulation ends by itself when the
+  /// machine is stuck, unless other modules keep its time going.
+  std::optional<std::uint64_t> hang_cycles;
   /// Called, if there is one, once a frame, in order, before software starts the core with it: what software
   /// writes into the registers of algorithm parameters then, or nothing. What is impossible sets error bits,
   /// and the frame is processed with the last possible parameters.

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "platform/config/stream_config.hpp"
+#include "platform/machine/stuck.hpp"
 #include "tlm/deadlock.hpp"
 
 namespace parallax {
@@ -41,6 +42,7 @@ Deadlock find_deadlock(const Machine& machine) {
   deadlock.circle = machine.dataflow().deadlock();
   deadlock.waits = machine.dataflow().waits();
   const std::uint64_t frames = machine.input().frames * machine.tiles().tiles.size();
+  if (deadlock.circle.empty()) deadlock.ends = describe_ends(machine);
   if (!deadlock.circle.empty()) deadlock.remedy = smallest_remedy(machine.dataflow(), frames);
   return deadlock;
 }
@@ -48,7 +50,7 @@ Deadlock find_deadlock(const Machine& machine) {
 std::string message(const Deadlock& deadlock) {
   if (deadlock.circle.empty()) {
     return "the machine stopped before all frames were done; these wait:\n" + describe(deadlock.waits) +
-           "  no circle of streams holds it up, so no depth would free it\n";
+           deadlock.ends + "  no circle of streams holds it up, so no depth would free it\n";
   }
   return "the machine is deadlocked; nobody in this circle can go on:\n" + describe(deadlock.circle) +
          hint(deadlock.remedy);

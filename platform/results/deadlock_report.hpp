@@ -14,6 +14,7 @@ namespace parallax {
 struct Deadlock {
   std::vector<Wait> circle;  ///< of waits, each for the next one; empty: none is known
   std::vector<Wait> waits;   ///< all
+  std::string ends;          ///< where chains of them end (describe_ends), if there is no circle
   Remedy remedy;             ///< of a circle
 };
 
