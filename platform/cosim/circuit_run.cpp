@@ -113,6 +113,7 @@ void CircuitRun::record(const MachineConfig& config, const MachineInput& model,
             [](const Placed& a, const Placed& b) { return a.model.slot < b.model.slot; });
   in_place_ = circuits_.size();
   if (shadow_) return;
+  check_ready_paths(config.streams);
   for (std::size_t i = 1; i < circuits_.size(); ++i) {
     MachineInput behind = model;
     behind.replacements = replacements(0, i, [] { sc_core::sc_stop(); });
@@ -122,6 +123,29 @@ void CircuitRun::record(const MachineConfig& config, const MachineInput& model,
       return;
     }
     circuits_[i].model = std::move(records[0]);
+  }
+}
+
+// Within a cycle the circuit upstream is evaluated first, and sees a cycle late what the other one reads.
+void CircuitRun::check_ready_paths(const StreamConfig& streams) const {
+  const auto check = [&](const Placed& from, const Placed& to, const std::string& name) {
+    for (const VectorStream& input : to.model.manifest.streams) {
+      if (!input.is_input || input.name != name || streams.offsets(name).read_to_write != 0) continue;
+      throw UserError(
+          fmt::format("streams.{}.read_to_write = 0: between the circuits of {} and {} no place can "
+                      "be freed and taken in one cycle; 1 or more can be kept, or any with "
+                      "--circuit-shadow",
+                      name, from.stage, to.stage));
+    }
+  };
+  for (const Placed& from : circuits_) {
+    for (const VectorStream& output : from.model.manifest.streams) {
+      if (output.is_input) continue;
+      for (const Placed& to : circuits_) {
+        check(from, to, output.name);
+        for (const std::string& name : output.also) check(from, to, name);
+      }
+    }
   }
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "platform/config/stream_config.hpp"
 #include "platform/cosim/circuit_library.hpp"
 #include "platform/cosim/circuit_outcome.hpp"
 #include "platform/cosim/circuit_pins.hpp"
@@ -66,6 +67,7 @@ class CircuitRun {
   std::vector<std::string> stages() const;
   void record(const MachineConfig& config, const MachineInput& model,
               const std::function<bool()>& interrupted);
+  void check_ready_paths(const StreamConfig& streams) const;
   void run_shadows(const MachineConfig& config, const MachineInput& model,
                    const std::function<bool()>& interrupted);
   StageReplacements replacements(std::size_t begin, std::size_t end, const std::function<void()>& stop);

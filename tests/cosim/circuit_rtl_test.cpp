@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -131,6 +132,63 @@ TEST(CircuitRun, BehindOneThatIsGivenUpTheNextIsLeftOut) {
   EXPECT_EQ(count(outcome.out, "circuit             none is left out: a circuit before it was given up\n"),
             1U)
       << outcome.err << outcome.out;
+}
+
+// A circuit without Verilog: a disparity passes in the cycle in which it comes, as ready does.
+void make_wires(const Program& program) {
+  std::ofstream(program / "wires.c")
+      << "#include <stdlib.h>\n#include \"circuit.h\"\n"
+         "struct wires { unsigned char clk, rst, in_valid, in_ready, out_valid, out_ready, in[2], out[2];\n"
+         "  struct parallax_pin pins[8]; };\n"
+         "static void* make(unsigned seed) {\n"
+         "  struct wires* w = calloc(1, sizeof *w);\n"
+         "  const struct parallax_pin pins[8] = {{\"clk\", 1, 1, &w->clk}, {\"rst\", 1, 1, &w->rst},\n"
+         "    {\"in_disparity_data\", 1, 12, w->in}, {\"in_disparity_valid\", 1, 1, &w->in_valid},\n"
+         "    {\"in_disparity_ready\", 0, 1, &w->in_ready}, {\"out_disparity_data\", 0, 12, w->out},\n"
+         "    {\"out_disparity_valid\", 0, 1, &w->out_valid}, {\"out_disparity_ready\", 1, 1, "
+         "&w->out_ready}};\n"
+         "  (void)seed;\n"
+         "  for (int i = 0; i < 8; ++i) w->pins[i] = pins[i];\n"
+         "  return w;\n}\n"
+         "static const struct parallax_pin* pins(void* w, unsigned* n) {\n"
+         "  return *n = 8, ((struct wires*)w)->pins;\n}\n"
+         "static void evaluate(void* c) {\n"
+         "  struct wires* w = c;\n"
+         "  w->out[0] = w->in[0], w->out[1] = w->in[1], w->out_valid = w->in_valid, w->in_ready = "
+         "w->out_ready;\n}\n"
+         "static int finished(void* w) { return (void)w, 0; }\n"
+         "static const struct parallax_circuit wires = {PARALLAX_CIRCUIT_VERSION, \"wires\", make, pins, "
+         "evaluate,\n"
+         "  finished, free};\n"
+         "const struct parallax_circuit* parallax_get_circuit(void) { return &wires; }\n";
+  const std::string build = "cd '" + program.folder().path().string() + "' && cc -shared -fPIC -I" +
+                            source_path("platform/cosim/circuit") + " wires.c -o wires.so";
+  ASSERT_EQ(std::system(build.c_str()), 0);
+}
+
+constexpr const char* kTwoWires =
+    "--circuit gap_interpolation=wires.so --circuit noise_reduction=wires.so "
+    "--set gap_interpolation.enabled=false --set noise_reduction.enabled=false "
+    "--set streams.interpolated.kind=free ";
+
+TEST(CircuitRun, BetweenTwoCircuitsReadyIsNotCombinational) {
+  const Program program;
+  make_wires(program);
+  const std::string two = kMachine + std::string(kTwoWires);
+  const Outcome refused = program(two + "--set streams.interpolated.read_to_write=0");
+  EXPECT_EQ(refused.code, 2) << refused.out;
+  EXPECT_EQ(
+      refused.err,
+      "parallax: error: streams.interpolated.read_to_write = 0: between the circuits of gap_interpolation "
+      "and noise_reduction no place can be freed and taken in one cycle; 1 or more can be kept, or any "
+      "with --circuit-shadow\n");
+  for (const char* allowed :
+       {"--set streams.interpolated.read_to_write=1", "--set streams.interpolated.write_to_read=0",
+        "--set streams.interpolated.read_to_write=0 --circuit-shadow",
+        "--set streams.smoothed.kind=free --set streams.smoothed.read_to_write=0"}) {
+    const Outcome outcome = program(two + allowed);
+    EXPECT_EQ(outcome.code, 0) << allowed << "\n" << outcome.err << outcome.out;
+  }
 }
 
 struct Fault {
