@@ -12,6 +12,8 @@ namespace parallax {
 /// How tokens go in or out of a circuit at its pins, beside what follows from the pins that are bound
 /// (PinSource, PinSink). Cycles are those of the circuit's clock.
 struct PinConfig {
+  static constexpr std::uint64_t kAll = ~std::uint64_t{0};
+
   /// PinSource: cycles from one token to the next, at least; as with a pixel strobe, one clock in so many. At
   /// least 1.
   std::uint64_t interval = 1;
@@ -23,6 +25,9 @@ struct PinConfig {
   std::uint64_t not_ready_cycles = 0;  ///< from 0 on, those after reset in which no token passes
   std::uint64_t row_tokens = 0;        ///< of a row, for the pins `last`, `row` and `column`; 0: no rows
   std::uint64_t frame_tokens = 0;      ///< of a frame; 0: frames do not matter
+  /// Tokens, from the first one on, that have values. The others, as of frames without images, are zeros at
+  /// the pins, and nothing but their dates in a stream.
+  std::uint64_t with_values = kAll;
   /// Tokens of zeros behind each frame, for a window that gives its last results only if more pixels come.
   std::uint64_t flush = 0;
   /// PinSink: results before the first one of each frame, which count for nothing.

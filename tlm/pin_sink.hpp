@@ -105,7 +105,12 @@ class PinSink final : public sc_core::sc_module, public PinEnd, public Actor {
       return true;
     }
     of_burst_ = (of_burst_ > 0 ? of_burst_ : config_.burst) - 1;
-    out.write(unpack_(data->read()), cycle, std::exchange(blocked_, Cycles(0)));
+    const Cycles blocked = std::exchange(blocked_, Cycles(0));
+    if (tokens_ < config_.with_values) {
+      out.write(unpack_(data->read()), cycle, blocked);
+    } else {
+      for (StreamBase* stream : out.streams()) stream->mark_written(cycle, blocked);
+    }
     ++tokens_;
     if (config_.frame_tokens > 0 && tokens_ % config_.frame_tokens == 0) begin_frame();
     return true;

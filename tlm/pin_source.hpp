@@ -114,7 +114,12 @@ class PinSource final : public sc_core::sc_module, public PinEnd, public Actor {
       return true;
     }
     of_burst_ = (of_burst_ > 0 ? of_burst_ : config_.burst) - 1;
-    in.read(cycle, std::exchange(starved_, Cycles(0)));
+    const Cycles starved = std::exchange(starved_, Cycles(0));
+    if (has_value()) {
+      in.read(cycle, starved);
+    } else {
+      in.stream().mark_read(cycle, starved);
+    }
     if (++tokens_ == config_.frame_tokens + frame_begin_ && config_.frame_tokens > 0) {
       frame_begin_ = tokens_;
       flush_ = config_.flush;
@@ -134,6 +139,7 @@ class PinSource final : public sc_core::sc_module, public PinEnd, public Actor {
     return in.stream().readable_at(ahead());
   }
 
+  bool has_value() const { return tokens_ < config_.with_values; }
   std::uint64_t ahead() const { return of_burst_ > 0 ? 0 : config_.burst - 1; }
   bool burst_is_there(Cycles cycle) const {
     return in.stream().read_date_known(ahead()) && in.stream().readable_at(ahead()) <= cycle;
@@ -143,7 +149,7 @@ class PinSource final : public sc_core::sc_module, public PinEnd, public Actor {
     const bool zeros = flush_ > 0;
     const std::uint64_t token = tokens_ - frame_begin_;
     const std::uint64_t in_row = config_.row_tokens > 0 ? token % config_.row_tokens : token;
-    drive_pin(data, zeros ? Data(0) : pack_(in.peek()));
+    drive_pin(data, zeros || !has_value() ? Data(0) : pack_(in.peek()));
     drive_pin(first, !zeros && token == 0);
     drive_pin(last, !zeros && in_row + 1 == config_.row_tokens);
     drive_pin(row, zeros || config_.row_tokens == 0 ? 0 : token / config_.row_tokens);

@@ -104,8 +104,11 @@ class CensusAtPins final : public sc_core::sc_module {
   StreamOut<CensusCode> out_left{"out_left"};
   StreamOut<CensusCode> out_right{"out_right"};
 
-  CensusAtPins(const sc_core::sc_module_name& name, const CensusConfig& config, const StageContext& context)
+  /// `frames`: those with images; the cameras go on behind them.
+  CensusAtPins(const sc_core::sc_module_name& name, const CensusConfig& config, const StageContext& context,
+               std::uint64_t frames)
       : sc_module(name),
+        config_(with_images(context.tokens() * frames)),
         clock_("clock", context.clock),
         circuit_("circuit", config, context.width, context.height) {
     clock_.clock(clk_);
@@ -143,12 +146,20 @@ class CensusAtPins final : public sc_core::sc_module {
   std::uint64_t latency() const { return 1; }
 
  private:
+  static PinConfig with_images(std::uint64_t tokens) {
+    PinConfig config;
+    config.with_values = tokens;
+    return config;
+  }
+
+  const PinConfig config_;
   sc_core::sc_signal<bool> clk_, rst_;
   PinSignals<std::uint32_t> left_pins_, right_pins_;
   PinSignals<std::uint64_t> left_code_pins_, right_code_pins_;
   PinClock clock_;
-  PinSource<Gray, std::uint32_t> left_{"left", clock_}, right_{"right", clock_};
-  PinSink<CensusCode, std::uint64_t> left_code_{"left_code", clock_}, right_code_{"right_code", clock_};
+  PinSource<Gray, std::uint32_t> left_{"left", clock_, config_}, right_{"right", clock_, config_};
+  PinSink<CensusCode, std::uint64_t> left_code_{"left_code", clock_, config_};
+  PinSink<CensusCode, std::uint64_t> right_code_{"right_code", clock_, config_};
   CensusCircuit circuit_;
 };
 

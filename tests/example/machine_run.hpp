@@ -72,16 +72,17 @@ inline MachineConfig small_machine(const std::vector<std::string>& assignments =
   return pipeline_alone(preset(all));
 }
 
-inline MachineRun run_machine(const MachineConfig& config, const StageReplacements& replacements = {}) {
+/// `spare`: frames with images beyond those that are looked at. The cameras go on without images, and a block
+/// in kernel time that reads values would miss them.
+inline MachineRun run_machine(const MachineConfig& config, const StageReplacements& replacements = {},
+                              std::int64_t spare = 4) {
   const std::string text = in_child([&] {
     const EncodedMap map = encode(lens_map(kWidth, kHeight, config.rectification.range));
     MachineInput input;
     input.width = kWidth;
     input.height = kHeight;
     input.map = &map;
-    // More than are looked at: the cameras go on without images when all are taken, and a block in kernel
-    // time that reads values would miss them.
-    input.frames = kFrames + 4;
+    input.frames = kFrames + spare;
     input.replacements = replacements;
     input.expose = [](std::int64_t) {
       return StereoFrame{shifted_bars(kWidth, kHeight, 12), shifted_bars(kWidth, kHeight, 20)};

@@ -32,7 +32,7 @@ TEST(Replacement, AVariantOfAStageGivesTheSameValuesLater) {
 StageReplacements census_at_pins(const MachineConfig& config) {
   MachineInput input;
   input.bind_stage("census", [&config](const std::string& name, const StageContext& context) {
-    return slot_module(std::make_unique<CensusAtPins>(name.c_str(), config.census, context));
+    return slot_module(std::make_unique<CensusAtPins>(name.c_str(), config.census, context, kFrames));
   });
   return input.replacements;
 }
@@ -50,7 +50,7 @@ TEST(Replacement, ACircuitAtPinsGivesTheSameValuesAtTheDatesOfSuchAStage) {
                                 return slot_module(
                                     std::make_unique<LateCensus>(name.c_str(), config.census, 1, context, 1));
                               }}});
-    const MachineRun pins = run_machine(config, census_at_pins(config));
+    const MachineRun pins = run_machine(config, census_at_pins(config), 0);
     ASSERT_EQ(usual.fault, "");
     ASSERT_EQ(pins.fault, "");
     EXPECT_EQ(pins.disparities, usual.disparities);
@@ -71,7 +71,7 @@ TEST(Replacement, ACircuitAtPinsGivesTheSameValuesAtTheDatesOfSuchAStage) {
 TEST(Replacement, ACircuitAtPinsMayBeBehindWithItsValues) {
   const MachineConfig config = small_machine({"dma.output.burst_bytes=16"});
   const MachineRun usual = run_machine(config);
-  const MachineRun other = run_machine(config, census_at_pins(config));
+  const MachineRun other = run_machine(config, census_at_pins(config), 0);
   ASSERT_EQ(other.fault, "");
   EXPECT_EQ(other.disparities, usual.disparities);
 }
@@ -102,7 +102,7 @@ TEST(Replacement, AStageMayHaveTwoSidesAndTokensOfSeveralPixels) {
   ASSERT_EQ(other.fault, "");
   EXPECT_EQ(other.disparities, usual.disparities);
   EXPECT_EQ(other.disparities, run_machine(small_machine()).disparities);
-  EXPECT_EQ(run_machine(config, census_at_pins(config)).fault,
+  EXPECT_EQ(run_machine(config, census_at_pins(config), 0).fault,
             "what stands in the slot census works in kernel time, value by value: pipeline.pixels_per_token "
             "must be "
             "1");

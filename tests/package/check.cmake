@@ -16,6 +16,7 @@ run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR} -B ${area}/build -G ${GENERATO
   -DCMAKE_PREFIX_PATH=${area}/prefix -DCMAKE_CXX_FLAGS=${FLAGS} -DCMAKE_FIND_USE_PACKAGE_REGISTRY=OFF)
 run(${CMAKE_COMMAND} --build ${area}/build)
 run(${area}/build/own_initiator)
+run(${area}/build/own_pins)
 run(${area}/build/own_memory)
 run(${area}/build/own_exploration)
 run(${area}/build/own_circuit --timing-frames 1 --no-verdict)

@@ -40,11 +40,12 @@ inline PinTimes drawn_times(std::size_t tokens, std::uint64_t seed, std::uint64_
 /// Stream `in` has room for all tokens, so that the dates of writing are the given ones.
 template <class In, class Out>
 struct PinBench {
-  PinBench(const std::vector<In>& tokens, PinTimes given, std::uint32_t out_depth = 2)
+  PinBench(const std::vector<In>& tokens, PinTimes given, std::uint32_t out_depth = 2,
+           std::uint32_t out_write_to_read = 1)
       : clock("clock", Hertz(100'000'000)),
         dataflow("dataflow"),
         in("in", dataflow, clock, clock, fifo(static_cast<std::uint32_t>(tokens.size()))),
-        out("out", dataflow, clock, clock, fifo(out_depth)),
+        out("out", dataflow, clock, clock, {out_depth, Bits(8), out_write_to_read}),
         times(std::move(given)),
         in_log(in_dates),
         out_log(out_dates),

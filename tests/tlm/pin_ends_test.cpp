@@ -217,6 +217,37 @@ TEST(PinEnds, CountWhatTheyWaitFor) {
             "6 8 21 17 1 3 3");
 }
 
+// A stage reads in the cycle of the writing (tests/timing/pin_dates_test.cpp).
+TEST(PinEnds, AreSeenACycleLaterByAThreadOverAnOffsetOfZero) {
+  for (const std::uint32_t write_to_read : {0, 1}) {
+    EXPECT_EQ(in_child([write_to_read] {
+                PinBench<int, int> bench(numbers(3), {{4, 5, 9}, {0, 0, 0}}, 2, write_to_read);
+                Wires wires(bench, {}, {});
+                bench.run();
+                std::string text;
+                for (const std::int64_t date : bench.out_dates.read) text += std::to_string(date) + " ";
+                return text;
+              }),
+              "6 7 11 ");  // written in 5, 6 and 10
+  }
+}
+
+TEST(PinEnds, PassTokensWithoutValuesByTheirDates) {
+  EXPECT_EQ(in_child([]() -> std::string {
+              PinBench<int, int> bench({1, 2, 3, 4, 5, 6, 7, 8}, {Dates(20, 0), {}}, 20);
+              PinConfig config;
+              config.with_values = 8;
+              Wires wires(bench, config, config);
+              std::string text;
+              bench.out.on_row(
+                  1, [&text](const int* value, std::size_t) { text += std::to_string(*value) + " "; });
+              bench.run();
+              return text + std::to_string(bench.out_dates.written.size()) + " data " +
+                     std::to_string(wires.pins.data.read());
+            }),
+            "1 2 3 4 5 6 7 8 20 data 0");
+}
+
 TEST(PinClock, ResetsBeforeCycleZero) {
   for (const bool low : {false, true}) {
     EXPECT_EQ(in_child([low] {
@@ -264,6 +295,19 @@ TEST(PinClock, StandsWhenNothingHasPassedForAsLongAsItIsTold) {
               after == 0 ? "6 8 901 897 runs 2000" : "6 8 901 897 stands 24")
         << after;
   }
+}
+
+// As it stands, the simulation runs dry, and it can be said who waits.
+TEST(PinClock, StandsWhenTheEndsAreStuck) {
+  EXPECT_EQ(in_child([] {
+              PinBench<int, int> bench(numbers(6), {Dates(6, 0), Dates(2, 0)}, 2);
+              PinClockConfig config;
+              config.rest_after = 5;
+              Wires wires(bench, {}, {}, config);
+              bench.run();
+              return describe(bench.dataflow.waits()) + std::to_string(wires.clock.cycles());
+            }),
+            "  sink waits on stream out (full, depth 2) for nobody\n10");
 }
 
 std::string refusal(const PinConfig& config, bool pins_of_rows = false, std::uint32_t in_depth = 8,
