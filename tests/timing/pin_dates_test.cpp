@@ -3,6 +3,7 @@
 // reference has it.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <deque>
 #include <random>
 #include <sstream>
@@ -63,7 +64,12 @@ struct Chain {
 
 std::vector<EdgeDates> run_chain(const Chain& chain, std::string& fault) {
   const Graph& graph = chain.graph;
-  const ClockDomain clock("clock", Hertz(kUnitsPerSecond / graph.periods[0]));
+  std::deque<ClockDomain> clocks;
+  for (const std::int64_t period : graph.periods)
+    clocks.emplace_back("clock_" + std::to_string(clocks.size()), Hertz(kUnitsPerSecond / period));
+  const auto clock_of = [&](int node) -> const ClockDomain& {
+    return clocks[static_cast<std::size_t>(graph.nodes[static_cast<std::size_t>(node)].clock)];
+  };
   Dataflow dataflow("dataflow");
   std::vector<EdgeDates> dates(graph.edges.size());
   std::deque<DateLog> logs;
@@ -76,7 +82,8 @@ std::vector<EdgeDates> run_chain(const Chain& chain, std::string& fault) {
     config.write_to_read = graph.edges[e].write_to_read;
     config.read_to_write = graph.edges[e].read_to_write;
     config.not_ready_cycles = graph.edges[e].not_ready_cycles;
-    streams.emplace_back(("s" + std::to_string(e)).c_str(), dataflow, clock, clock, config);
+    streams.emplace_back(("s" + std::to_string(e)).c_str(), dataflow, clock_of(graph.edges[e].from),
+                         clock_of(graph.edges[e].to), config);
     streams.back().add_listener(logs.emplace_back(dates[e]));
     edges.push_back(e);
   }
@@ -92,7 +99,7 @@ std::vector<EdgeDates> run_chain(const Chain& chain, std::string& fault) {
   const auto end = [&](const char* name, const GraphNode& node, bool thread) {
     const bool is_source = node.kind == GraphNode::Kind::kSource;
     if (thread) {
-      threads.emplace_back(name, clock, node);
+      threads.emplace_back(name, clocks[static_cast<std::size_t>(node.clock)], node);
       is_source ? (*threads.back().out)(streams.front()) : (*threads.back().in)(streams.back());
       return;
     }
@@ -100,7 +107,8 @@ std::vector<EdgeDates> run_chain(const Chain& chain, std::string& fault) {
     as_stages.push_back(test::stage(0));
     for (const std::uint32_t stall : node.stalls)
       as_stages.back().parts.push_back({1, {idles(stall), token}});
-    stages.emplace_back(name, clock, dataflow, as_stages.back(), 1, is_source ? 0 : 1, is_source ? 1 : 0);
+    stages.emplace_back(name, clocks[static_cast<std::size_t>(node.clock)], dataflow, as_stages.back(), 1,
+                        is_source ? 0 : 1, is_source ? 1 : 0);
     is_source ? (*stages.back().out[0])(streams.front()) : (*stages.back().in[0])(streams.back());
   };
   end("from", first, (chain.threads & 1u) != 0);
@@ -112,7 +120,7 @@ std::vector<EdgeDates> run_chain(const Chain& chain, std::string& fault) {
     config.rest_after = chain.rest_after;
     config.order = static_cast<std::uint32_t>(i);
     const GraphEdge* fifo = edges[i + 1] - edges[i] > 1 ? &graph.edges[edges[i] + 1] : nullptr;
-    blocks.emplace_back("block" + std::to_string(i), clock, config, fifo);
+    blocks.emplace_back("block" + std::to_string(i), clock_of(1), config, fifo);
     blocks.back().source.in(streams[i]);
     blocks.back().sink.out(streams[i + 1]);
   }
@@ -201,6 +209,24 @@ TEST(PinDates, AFifoAtPinsIsThatFifo) {
                          link(1, 2).deep(1 + drawn.below(4)).offsets(drawn.below(2), drawn.below(2)),
                          drawn.stream(2, (chain.threads & 2u) != 0)};
     chain.at_pins = {false, true, false};
+    ASSERT_EQ(against_reference(chain), "") << "seed " << seed;
+  }
+}
+
+// The source has another clock than the circuit; the sink has either.
+TEST(PinDates, AStreamMayCrossClocksBeforeOrBehindACircuit) {
+  for (std::uint64_t seed = 1; seed <= 80; ++seed) {
+    Drawn drawn(seed);
+    Chain chain = between(150, drawn);
+    const std::array<std::int64_t, 4> periods{200, 300, 375, 480};
+    chain.graph.periods.push_back(periods[drawn.below(4)]);
+    const int pins = static_cast<int>(drawn.below(2));
+    chain.graph.nodes.front() = chain.graph.nodes.front().on_clock(1 - pins);
+    chain.graph.nodes.push_back(copying(0, 150).on_clock(pins));
+    const int behind = static_cast<int>(drawn.below(2));
+    chain.graph.nodes.push_back(sink(drawn.stalls(150)).on_clock(behind));
+    chain.graph.edges = {drawn.stream(0, true), drawn.stream(1, true)};
+    chain.at_pins = {false, false};
     ASSERT_EQ(against_reference(chain), "") << "seed " << seed;
   }
 }
