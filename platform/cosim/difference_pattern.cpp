@@ -16,6 +16,8 @@ namespace {
 
 constexpr std::size_t kSamples = 200;  // differing tokens that a guess must explain before all are looked at
 constexpr std::int64_t kWidestRim = 16;  // px; 31 x 31 is the largest usual window
+// Differences that the rim would have if they were spread evenly: none there is then no chance (e^-8).
+constexpr double kMissedInRim = 8;
 
 // "path nw" of path_nw.
 std::string words_of(std::string name) {
@@ -231,6 +233,30 @@ class PatternSearch {
       add("one_tile", fmt::format("only tile {} differs", *tiles_.begin()));
   }
 
+  // Width of the rim in which nothing differs on any side, px; 0 also where none need differ there: so little
+  // does elsewhere, or the rim is all the same, as if masked.
+  std::int64_t equal_rim() const {
+    const std::int64_t rim = std::min({left_least_, right_least_, top_least_, bottom_least_});
+    const std::int64_t width = manifest_.tile_width, height = manifest_.height;
+    const std::int64_t inside = (width - 2 * rim) * (height - 2 * rim);
+    const double share = 1 - static_cast<double>(inside) / static_cast<double>(width * height);
+    const double pixels = quotient(comparison_.different_tokens, stream_.shape.tokens_per_pixel);
+    if (pixels * share < kMissedInRim) return 0;
+    const std::uint64_t masked = expected_.raw(0, fields_.front());
+    const auto is_in_rim = [&](const ValuePlace& place) {
+      const std::int64_t x = place.column - manifest_.tile_begins[static_cast<std::size_t>(place.tile)];
+      return std::min({x, width - 1 - x, place.row, height - 1 - place.row}) < rim;
+    };
+    for (std::uint64_t token = 0; token < tokens_; ++token) {
+      for (std::size_t field = 0; field < fields_.size(); ++field) {
+        if (expected_.raw(token, fields_[field]) != masked &&
+            is_in_rim(manifest_.place(stream_, token, field)))
+          return rim;
+      }
+    }
+    return 0;
+  }
+
   void find_image_regions() {
     const std::int64_t width = manifest_.tile_width;
     const std::int64_t height = manifest_.height;
@@ -244,6 +270,13 @@ class PatternSearch {
     if (is_small(right_, width)) add("only_last_columns", border("last", right_ + 1, "column"));
     if (found_.size() == before && is_small(rim_, std::min(width, height)))
       add("only_rim", fmt::format("only the rim differs, {} px wide", rim_ + 1));
+    if (const std::int64_t equal = equal_rim(); equal > 0 && is_small(equal - 1, std::min(width, height))) {
+      add("all_but_rim",
+          fmt::format("the rim is equal, {} px wide, what lies inside it differs: what comes from "
+                      "all around a pixel",
+                      equal));
+      return;
+    }
     const std::size_t rows = comparison_.rows.size();
     const ScanOrder order = stream_.shape.order;
     const std::int64_t first_row = order == ScanOrder::kTurned ? bottom_least_ : top_least_;

@@ -209,6 +209,20 @@ TEST_F(Vectors, WhatCannotBeCompared) {
   EXPECT_EQ(
       refusal(compare + "v/left_codes.memh"),
       "v/manifest.json: vectors of version 9, this program reads version 1; run parallax vectors again\n");
+  const auto damaged = [&](const std::string& key, const json& value) {
+    json tree = json::parse(whole);
+    tree[json::json_pointer(key)] = value;
+    program_.folder().write("v/manifest.json", tree.dump());
+    return refusal(compare + "v/left_codes.memh");
+  };
+  const std::string again = "; run parallax vectors again\n";
+  EXPECT_EQ(damaged("/format", "map"), "v/manifest.json: damaged, not a manifest of vectors" + again);
+  EXPECT_EQ(damaged("/size/tile_begins", json::array()),
+            "v/manifest.json: damaged, an image without tiles" + again);
+  EXPECT_EQ(damaged("/streams/2/fields", json::array()),
+            "v/manifest.json: damaged, a stream without fields" + again);
+  EXPECT_EQ(damaged("/streams/2/fields/0/bits", 65), "v/manifest.json: damaged, a field of 65 bits" + again);
+  EXPECT_EQ(damaged("/streams", json::array()), "census has no output stream: --dump STREAM=FILE\n");
   program_.folder().write("v/manifest.json", "{");
   EXPECT_EQ(refusal(compare + "v/left_codes.memh").substr(0, 26), "v/manifest.json: damaged, ");
   program_.folder().write("v/manifest.json", whole);
@@ -216,6 +230,11 @@ TEST_F(Vectors, WhatCannotBeCompared) {
   EXPECT_EQ(refusal(compare + "v/right_codes.memh"),
             "v/left_codes.memh: not the file that was written with its manifest.json; run parallax vectors "
             "again\n");
+  program_.folder().write(
+      "long.vcd",
+      "$var wire 24 d out_right_data $end\n$var wire 1 v out_right_valid $end\n$var wire 1 c clk $end\n"
+      "$enddefinitions $end\n#0\n0c\n1v\nb1000000000000000000000000 d\n#1\n1c\n");
+  EXPECT_EQ(refusal(compare + "right_codes=long.vcd"), "long.vcd, line 11: 25 binary digits for 24 bits\n");
 }
 
 }  // namespace vectors_test

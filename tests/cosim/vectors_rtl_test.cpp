@@ -73,6 +73,21 @@ TEST_F(TestBench, PassesTheRightCircuitUnderAnyStalls) {
   EXPECT_EQ(verdict(ended), kPass) << ended.said;
 }
 
+// For as long as +pause says nothing moves, where all that is due waits for one port; without stalls there
+// are no pauses.
+TEST_F(TestBench, PausesForAsLongAsItIsTold) {
+  for (const char* const arguments :
+       {"+pause=3000 +timeout=3500", "+pause=0 +timeout=2500", "+stall=0 +pause=3000 +timeout=2500"}) {
+    const Ended ended = icarus("", arguments);
+    EXPECT_EQ(ended.code, 0) << arguments << ended.said;
+    EXPECT_EQ(verdict(ended), kPass) << arguments << ended.said;
+  }
+  const Ended ended = icarus("", "+pause=3000 +timeout=2500");
+  EXPECT_EQ(ended.code, 1) << ended.said;
+  EXPECT_NE(ended.said.find("FAIL census: nothing has moved for 2501 cycles"), std::string::npos)
+      << ended.said;
+}
+
 // Both simulators say the same of the same stalls, to the cycle.
 TEST_F(TestBench, SaysTheSameInBothSimulators) {
   const std::string first = "left_codes: the first difference is token ";

@@ -175,6 +175,50 @@ TEST_F(AlteredDump, APartOfTheImage) {
   EXPECT_EQ(pattern(is_in([](auto x, auto y) { return (x * 7 + y * 13) % 50 == 3; })), "none");
 }
 
+// A plain median, or a window that is masked, leaves the rim as it is.
+TEST_F(AlteredDump, AllButTheRim) {
+  make(codes(64, 24), 64, 48, 2);
+  const auto said = [this](auto where) {
+    Words got = words_;
+    for (std::uint64_t token = 0; token < got.size(); ++token) {
+      const ValuePlace place = manifest_.place(stream(), token, 0);
+      if (where(place.column, place.row)) got[token][0] ^= 1 + token % 5;
+    }
+    return compare(got).patterns.front().text;
+  };
+  const auto rim = [](int px) {
+    return fmt::format(
+        "the rim is equal, {} px wide, what lies inside it differs: what comes from all around a "
+        "pixel",
+        px);
+  };
+  const auto inside = [](auto x, auto y, int px) { return x >= px && x < 64 - px && y >= px && y < 48 - px; };
+  for (const int px : {1, 3, 12}) {
+    EXPECT_EQ(said([&](auto x, auto y) { return inside(x, y, px); }), rim(px));
+    EXPECT_EQ(said([&](auto x, auto y) { return inside(x, y, px) && (x + y) % 4 != 3; }), rim(px));
+  }
+  // Of the widths on each side, the least.
+  EXPECT_EQ(said([&](auto x, auto y) { return inside(x, y, 1) && x > 4 && y < 40; }), rim(1));
+  const std::string none = "none of those known: scattered over the image";
+  // A rim wider than any window's.
+  EXPECT_EQ(said([&](auto x, auto y) { return inside(x, y, 13); }), none);
+  // Some at the border.
+  EXPECT_EQ(said([&](auto x, auto y) { return inside(x, y, 1) || (x == 63 && y == 20); }).substr(0, 22),
+            "the first row is equal");
+  EXPECT_EQ(said([&](auto x, auto y) { return inside(x, y, 1) || (x == 20 && y == 0); }).substr(0, 25),
+            "the first column is equal");
+  // Of 82 differences in 6144 tokens, some six would lie in the rim by chance; of 110, eight.
+  EXPECT_EQ(said([&](auto x, auto y) { return inside(x, y, 1) && (y * 62 + x) % 69 == 5; }).substr(0, 22),
+            "the first row is equal");
+  EXPECT_EQ(said([&](auto x, auto y) { return inside(x, y, 1) && (y * 62 + x) % 51 == 5; }), rim(1));
+  // A rim that is masked cannot differ.
+  for (std::uint64_t token = 0; token < words_.size(); ++token) {
+    const ValuePlace place = manifest_.place(stream(), token, 0);
+    if (!inside(place.column, place.row, 2)) words_[token][0] = 0xFFF;
+  }
+  EXPECT_EQ(said([&](auto x, auto y) { return inside(x, y, 2); }), none);
+}
+
 // Where all are alike, a token that has another value is not one too many.
 TEST_F(AlteredDump, OtherValuesInAFlatImage) {
   make(codes(64, 24), 64, 48);

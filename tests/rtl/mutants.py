@@ -51,7 +51,7 @@ BIT = {"one_bit", "top_bits_lost", "saturated"}
 ORDER = {"bit_order", "byte_order", "field_order"}
 OFFSET = {"constant_offset"}
 CONSTANT = {"constant", "unknown_bits"}
-VALUES = {"none"}  # other values here and there: nothing that they have in common
+VALUES = {"none", "all_but_rim"}  # other values here and there: nothing that they have in common, or but that the rim passes unchanged
 
 # (file, old, new, patterns[, place])
 CENSUS = [
