@@ -13,7 +13,7 @@
 namespace parallax {
 namespace {
 
-// The first letter of an answer: whether the rest is the result, or what was thrown.
+// The last letter of an answer, which may be large: whether the rest is the result, or what was thrown.
 constexpr char kDone = '+';
 constexpr char kUserError = '-';
 constexpr char kFailed = '!';
@@ -22,13 +22,15 @@ std::string answer(const std::function<std::string()>& work) {
   try {
     sc_core::sc_report_handler::set_actions(sc_core::SC_INFO, sc_core::SC_DO_NOTHING);
     sc_core::sc_report_handler::set_actions(sc_core::SC_ID_NO_SC_START_ACTIVITY_, sc_core::SC_DO_NOTHING);
-    return kDone + work();
+    std::string result = work();
+    result.push_back(kDone);
+    return result;
   } catch (const UserError& error) {
-    return kUserError + std::string(error.what());
+    return std::string(error.what()) + kUserError;
   } catch (const sc_core::sc_report& report) {
-    return kFailed + fmt::format("{}: {}", report.get_msg_type(), report.get_msg());
+    return fmt::format("{}: {}", report.get_msg_type(), report.get_msg()) + kFailed;
   } catch (const std::exception& error) {
-    return kFailed + std::string(error.what());
+    return std::string(error.what()) + kFailed;
   }
 }
 
@@ -44,10 +46,11 @@ std::optional<std::string> in_own_process(const std::function<std::string()>& wo
   }
   if (process.state() != WorkerProcess::State::kAnswered)
     throw std::runtime_error(fmt::format("a simulation's process ended by signal {}", process.signal()));
-  const std::string answered = process.take_answer();
-  const std::string text = answered.substr(1);
-  if (answered[0] == kUserError) throw UserError(text);
-  if (answered[0] == kFailed) throw std::runtime_error(text);
+  std::string text = process.take_answer();
+  const char kind = text.back();
+  text.pop_back();
+  if (kind == kUserError) throw UserError(text);
+  if (kind == kFailed) throw std::runtime_error(text);
   return text;
 }
 

@@ -134,13 +134,16 @@ WorkerProcess::State WorkerProcess::receive(int milliseconds) {
   Length length = 0;
   if (received_.size() < sizeof length) return state_;
   std::memcpy(&length, received_.data(), sizeof length);
+  received_.reserve(sizeof length + length);
   if (received_.size() == sizeof length + length) state_ = State::kAnswered;
   return state_;
 }
 
 std::string WorkerProcess::take_answer() {
   state_ = State::kIdle;
-  return std::exchange(received_, {}).substr(sizeof(Length));
+  std::string answer = std::exchange(received_, {});
+  answer.erase(0, sizeof(Length));
+  return answer;
 }
 
 }  // namespace parallax
