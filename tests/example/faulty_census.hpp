@@ -32,9 +32,10 @@ class FaultyCensusStage final : public Stage {
   StreamOut<CensusCode> out_left{"out_left"};
   StreamOut<CensusCode> out_right{"out_right"};
 
-  /// The schedule reads `read` and writes `written` tokens of a frame; the values are right but for `fault`.
+  /// The schedule reads `read` and writes `written` tokens of a frame; the values are right but for `fault`,
+  /// and for one that comes, if it is `early`, before there is any grey value.
   FaultyCensusStage(const sc_core::sc_module_name& name, const StageContext& context, std::uint64_t read,
-                    std::uint64_t written, CensusFault fault)
+                    std::uint64_t written, CensusFault fault, bool early = false)
       : Stage(name, context.clock, context.dataflow, 2), frame_(context.tokens()), fault_(fault) {
     const std::uint64_t both = std::min(read, written);
     set_schedule(Schedule()
@@ -54,15 +55,24 @@ class FaultyCensusStage final : public Stage {
       const std::vector<CensusCode> codes(row, row + size);
       out_right.send_row(codes.data(), size);
     });
+    if (!early) return;
+    SC_HAS_PROCESS(FaultyCensusStage);
+    SC_METHOD(send_one);
   }
 
  private:
+  void send_one() {
+    const CensusCode code = 0;
+    out_left.send_row(&code, 1);
+  }
+
   const std::uint64_t frame_;
   const CensusFault fault_;
   std::uint64_t taken_ = 0;
 };
 
-/// The same from a thread, a token a cycle; a token leaves it when `held` more have come.
+/// As FaultyCensusStage from a thread, a token a cycle; a token leaves it when `held` more have come, the
+/// first of all, if it is `early`, before any has.
 class FaultyCensusThread final : public sc_core::sc_module {
  public:
   StreamIn<Gray> in_left{"in_left"};
@@ -71,14 +81,23 @@ class FaultyCensusThread final : public sc_core::sc_module {
   StreamOut<CensusCode> out_right{"out_right"};
 
   FaultyCensusThread(const sc_core::sc_module_name& name, const StageContext& context, CensusFault fault,
-                     std::size_t held)
-      : sc_module(name), clock_(context.clock), frame_(context.tokens()), fault_(fault), held_(held) {
+                     std::size_t held, bool early)
+      : sc_module(name),
+        clock_(context.clock),
+        frame_(context.tokens()),
+        fault_(fault),
+        held_(held),
+        early_(early) {
     SC_HAS_PROCESS(FaultyCensusThread);
     SC_THREAD(run);
   }
 
  private:
   void run() {
+    if (early_) {  // a date alone, as in frames without images
+      out_left->wait_writable();
+      out_left->commit();
+    }
     for (std::int64_t frame = 0;; ++frame) {
       for (std::uint64_t token = 0; token < frame_; ++token) {
         left_.push_back(in_left->read());
@@ -100,6 +119,7 @@ class FaultyCensusThread final : public sc_core::sc_module {
   const std::uint64_t frame_;
   const CensusFault fault_;
   const std::size_t held_;
+  const bool early_;
   std::deque<CensusCode> left_, right_;
 };
 
@@ -111,10 +131,11 @@ inline StageFactory faulty_stage(std::int64_t more_read, std::int64_t more_writt
   };
 }
 
-inline StageFactory faulty_thread(CensusFault fault, std::size_t held = 0, std::uint64_t latency = 0) {
+inline StageFactory faulty_thread(CensusFault fault, std::size_t held = 0, std::uint64_t latency = 0,
+                                  bool early = false) {
   return [=](const std::string& name, const StageContext& context) {
     SlotModule slot;
-    slot.module = std::make_unique<FaultyCensusThread>(name.c_str(), context, fault, held);
+    slot.module = std::make_unique<FaultyCensusThread>(name.c_str(), context, fault, held, early);
     slot.latency = latency;
     return slot;
   };

@@ -89,6 +89,17 @@ TEST(LostTokens, TokensOfABlockInKernelTimeAreCounted) {
             "of frame 2, at stream left_codes");
 }
 
+TEST(LostTokens, NothingComesBeforeWhatItIsMadeOf) {
+  EXPECT_EQ(report_of(faulty_thread({}, 0, 0, true)),
+            "what stands in the slot census writes a token before it has read one, at stream left_codes");
+  const StageFactory early = [](const std::string& name, const StageContext& context) {
+    return slot_module(std::make_unique<FaultyCensusStage>(name.c_str(), context, context.tokens(),
+                                                           context.tokens(), CensusFault{}, true));
+  };
+  EXPECT_EQ(report_of(early),
+            "what stands in the slot census hands over values before it has got any, at stream left_codes");
+}
+
 // What is held over is in order if the block's latency says so.
 TEST(LostTokens, WhatIsOnItsWayFollowsFromTheLatency) {
   EXPECT_EQ(report_of(faulty_thread({}, 3, 2)),
