@@ -72,7 +72,7 @@ TEST_F(BadInput, ADiskThatFillsUpLeavesTheFramesBefore) {
   if (::mount("tmpfs", disk.c_str(), "tmpfs", 0, "size=800k") != 0) {
     GTEST_SKIP() << "a small file system can be mounted by root only";
   }
-  const test::Outcome outcome = program_("run --disparities 32 --size 64x48 --frames 1000 --out disk/new");
+  const test::Outcome outcome = program_("run --disparities 32 --size 64x48 --frames 50 --out disk/new");
   const auto left = program_.files("disk/new");
   ::umount(disk.c_str());
   EXPECT_EQ(outcome.code, 2);
