@@ -117,7 +117,7 @@ class Finder {
 
   UserError wrong_width(const PinBits& bits, const std::string& role, std::size_t width) const {
     return UserError(fmt::format("circuit {}: pin {} has {}; as {} it must have {}", circuit_.name(),
-                                 bits.pin().name, bits_text(bits), role, width));
+                                 bits.name(), bits_text(bits), role, width));
   }
 
   // An AXI stream is whole bytes; what the token does not need of the last one lies above it.
@@ -196,7 +196,7 @@ class Finder {
     const std::uint64_t most = most_on(stream, role);
     if (!bits || bits.width() >= 64 || most >> bits.width() == 0) return;
     throw UserError(fmt::format("circuit {}: pin {} has {}; as {}.{} it must hold {}", circuit_.name(),
-                                bits.pin().name, bits_text(bits), stream.port, role, most));
+                                bits.name(), bits_text(bits), stream.port, role, most));
   }
 
   PinBits counter_at(const VectorStream& stream, const std::string& role) {

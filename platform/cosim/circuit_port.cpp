@@ -176,7 +176,10 @@ bool CircuitOutput::put(Cycles cycle, bool stands, std::uint64_t frames) {
     return true;
   }
   if (!owes(frames) && breach_.empty()) {
-    breach_ = fmt::format("{}: a token more than the {} of frame {}, in cycle {}", port_.stream.name,
+    breach_ =
+        frames == 0
+            ? fmt::format("{}: a token before one has gone in, in cycle {}", port_.stream.name, cycle.count())
+            : fmt::format("{}: a token more than the {} of frame {}, in cycle {}", port_.stream.name,
                           port_.stream.frame_tokens, frames - 1, cycle.count());
   }
   read();

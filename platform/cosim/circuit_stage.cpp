@@ -241,7 +241,8 @@ void CircuitStage::step() {
   }
   if (clocked) edge();
   if (circuit_.finished())
-    give_up(fmt::format("it has ended the simulation ($finish or $stop) in cycle {}", cycle_.count()));
+    give_up(fmt::format("it has ended the simulation ($finish, $stop or an error of Verilator's) in cycle {}",
+                        cycle_.count()));
   cycle_ += Cycles(1);
   const std::uint64_t quiet = (cycle_ - std::max({moved_, idle_, due_})).size();
   if (quiet == std::min(kRest, timeout_)) rests_ = !owes();

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "platform/cosim/pin_bits.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstring>
 
@@ -26,6 +28,12 @@ PinBits::PinBits(const parallax_pin& pin, std::size_t low, std::size_t width)
     : pin_(&pin), low_(low), width_(width) {
   if (low == 0 && width == pin.width && width <= kPinWord) bytes_ = pin_bytes(pin);
   mask_ = width < kPinWord ? (std::uint64_t{1} << width) - 1 : ~std::uint64_t{0};
+}
+
+std::string PinBits::name() const {
+  if (low_ == 0 && width_ == pin_->width) return pin_->name;
+  return width_ == 1 ? fmt::format("{}[{}]", pin_->name, low_)
+                     : fmt::format("{}[{}:{}]", pin_->name, low_ + width_ - 1, low_);
 }
 
 void PinBits::put(std::size_t at, std::size_t bits, std::uint64_t value) const {

@@ -26,6 +26,8 @@ class PinBits {
     return pin_ == other.pin_ && low_ == other.low_ && width_ == other.width_;
   }
   const parallax_pin& pin() const { return *pin_; }
+  /// "tdata", "tdata[15:8]"
+  std::string name() const;
   std::size_t low() const { return low_; }
   std::size_t width() const { return width_; }
 

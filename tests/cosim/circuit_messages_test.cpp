@@ -140,10 +140,15 @@ INSTANTIATE_TEST_SUITE_P(
                "in_ready = out_ready, out_data = in_data;\n static int tokens = 0;\n"
                "tokens += rises && in_valid && out_ready;\n out_valid = in_valid || tokens == 512;\n",
                "", "handshake           smoothed: a token more than the 512 of frame 0, in cycle "},
-        Breach{"Finish",
-               "in_ready = out_ready, out_valid = in_valid, out_data = in_data;\n static int tokens = 0;\n"
-               "tokens += rises && in_valid && out_ready;\n ended = tokens == 100;\n",
-               "", "given up            it has ended the simulation ($finish or $stop) in cycle "},
+        Breach{
+            "Finish",
+            "in_ready = out_ready, out_valid = in_valid, out_data = in_data;\n static int tokens = 0;\n"
+            "tokens += rises && in_valid && out_ready;\n ended = tokens == 100;\n",
+            "",
+            "given up            it has ended the simulation ($finish, $stop or an error of Verilator's) in "
+            "cycle "},
+        Breach{"TokenFromNowhere", "in_ready = out_ready, out_data = in_data, out_valid = 1;\n", "",
+               "handshake           smoothed: a token before one has gone in, in cycle 0\n"},
         Breach{"NeverReady", "", "--circuit-timeout 50 ",
                "given up            nothing has moved at its ports: interpolated offers token 0 of frame 0, "
                "and the circuit is not ready; at smoothed the circuit does not offer token 0 of frame 0\n"

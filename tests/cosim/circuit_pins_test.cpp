@@ -133,7 +133,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "--circuit-pins in_right.data=pixel[15:8]: circuit circuit has no such pin; the nearest is "
                 "pixels"},
         Refused{"Width", "--circuit-pins in_right.data=pixels[14:8]",
-                "circuit circuit: pin pixels has 7 bits; as in_right.data it must have 8"},
+                "circuit circuit: pin pixels[14:8] has 7 bits; as in_right.data it must have 8"},
         Refused{
             "Undriven", "--circuit-pins in_right.data=pixels[15:8]",
             "circuit circuit: nothing drives bit 16 of the input pixels; --circuit-pins ROLE=pixels[16] says "

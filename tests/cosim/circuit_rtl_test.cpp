@@ -10,6 +10,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <ostream>
+#include <set>
 #include <string>
 
 #include "tests/cli/program.hpp"
@@ -189,6 +190,39 @@ TEST(CircuitRun, BetweenTwoCircuitsReadyIsNotCombinational) {
     const Outcome outcome = program(two + allowed);
     EXPECT_EQ(outcome.code, 0) << allowed << "\n" << outcome.err << outcome.out;
   }
+}
+
+// Of a reset that forgets a register, the seed decides what is in it.
+TEST(CircuitRun, ARegisterBeginsAtRandom) {
+  const Program program;
+  std::ofstream(program / "c.sv")
+      << "module c(input clk, input rst, input [11:0] in_data, input in_valid, output in_ready,\n"
+         "  output [11:0] out_data, output out_valid, input out_ready);\n"
+         "  reg [11:0] forgotten;\n  assign out_data = forgotten, out_valid = in_valid, in_ready = "
+         "out_ready;\n"
+         "  always @(posedge clk) if (rst && in_data == 12'hfff) forgotten <= in_data;\nendmodule\n";
+  ASSERT_EQ(program("circuit c.sv --out c.so").code, 0);
+  std::set<std::string> begins;
+  for (const char* const seed : {"1", "2", "3", "4"}) {
+    const Outcome outcome =
+        program(std::string(kMachine) + "--json --circuit noise_reduction=c.so --circuit-seed " + seed);
+    const nlohmann::json stream = nlohmann::json::parse(outcome.out).at("circuits").at(0).at("streams").at(0);
+    begins.insert(stream.at("first_difference").at("got").get<std::string>());
+  }
+  EXPECT_GE(begins.size(), 2U);
+}
+
+// Verilator would evaluate it for ever, with a line each time.
+TEST(CircuitRun, ALoopThatDoesNotSettleEndsIt) {
+  const Program program;
+  std::ofstream(program / "loop.sv")
+      << "module loop(input [11:0] in_data, output [11:0] out_data);\n"
+         "  wire a;\n  assign a = ~a, out_data = in_data ^ {12{a}};\nendmodule\n";
+  const Outcome outcome = program(std::string(kMachine) + "--circuit noise_reduction=loop.sv");
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_NE(outcome.err.find("did not converge"), std::string::npos) << outcome.err;
+  EXPECT_EQ(count(outcome.err, "\n"), 2U) << outcome.err;
+  EXPECT_EQ(count(outcome.out, "given up            it has ended the simulation"), 1U) << outcome.out;
 }
 
 struct Fault {

@@ -4,15 +4,37 @@
 // PARALLAX_PINS(TOP) its pins.
 #include <verilated.h>
 
+#include <cstdio>
+
 namespace {
 
-struct Circuit {
-  explicit Circuit(unsigned seed) {
-    // What a reset forgets shows: no register begins as 0 unless it is told so.
-    context.randReset(2);
-    context.randSeed(static_cast<int>(seed | 1u));
+// What a reset forgets shows: no register begins as 0 unless it is told so. It does when the top is made.
+struct RandomContext : VerilatedContext {
+  explicit RandomContext(unsigned seed) {
+    randReset(2);
+    randSeed(static_cast<int>(seed | 1u));
   }
-  VerilatedContext context;
+};
+
+// Verilator goes on where its function for fatal errors returns: for ever, in a loop that does not settle.
+struct FatalError {};
+
+struct Circuit {
+  explicit Circuit(unsigned seed) : context(seed) {}
+  void evaluate() {
+    if (failed) return;
+    try {
+      top.eval();
+    } catch (const FatalError&) {
+      failed = true;
+    }
+  }
+  ~Circuit() {
+    if (!failed) top.final();
+  }
+
+  RandomContext context;
+  bool failed = false;
   PARALLAX_TOP top{&context, PARALLAX_NAME};
   const parallax_pin pins[PARALLAX_PIN_COUNT] = {PARALLAX_PINS(top)};
 };
@@ -27,12 +49,9 @@ const parallax_circuit kCircuit{
       *number = PARALLAX_PIN_COUNT;
       return of(circuit).pins;
     },
-    [](void* circuit) { of(circuit).top.eval(); },
-    [](void* circuit) -> int { return of(circuit).context.gotFinish(); },
-    [](void* circuit) {
-      of(circuit).top.final();
-      delete &of(circuit);
-    },
+    [](void* circuit) { of(circuit).evaluate(); },
+    [](void* circuit) -> int { return of(circuit).failed || of(circuit).context.gotFinish(); },
+    [](void* circuit) { delete &of(circuit); },
 };
 
 }  // namespace
@@ -41,12 +60,12 @@ const parallax_circuit kCircuit{
 // fatal errors of the circuit are told by finished().
 void vl_finish(const char*, int, const char*) { Verilated::threadContextp()->gotFinish(true); }
 void vl_stop(const char* file, int line, const char*) {
-  VL_PRINTF("%s:%d: $stop\n", file, line);
+  std::fprintf(stderr, "%s:%d: $stop\n", file, line);
   Verilated::threadContextp()->gotFinish(true);
 }
 void vl_fatal(const char* file, int line, const char*, const char* message) {
-  VL_PRINTF("%s:%d: %s\n", file, line, message);
-  Verilated::threadContextp()->gotFinish(true);
+  std::fprintf(stderr, "%s:%d: %s\n", file, line, message);
+  throw FatalError{};
 }
 
 extern "C" __attribute__((visibility("default"))) const parallax_circuit* parallax_get_circuit() {
