@@ -10,6 +10,7 @@
 
 #include "platform/cosim/path_origin.hpp"
 #include "platform/cosim/token_shift.hpp"
+#include "platform/cosim/value_difference.hpp"
 
 namespace parallax {
 namespace {
@@ -71,6 +72,9 @@ class PatternSearch {
       }
     }
     find_regions();
+    if (found_.empty() && comparison_.different_tokens >= kLeastExplained) {
+      if (const auto values = find_value_difference(stream_, expected_, got_)) found_.push_back(*values);
+    }
     if (found_.empty() && comparison_.different_tokens == 1) add("one_token", "one token alone");
     if (found_.empty()) add("none", "none of those known: scattered over the image");
     return found_;
@@ -257,6 +261,19 @@ class PatternSearch {
     return 0;
   }
 
+  // Whether a row or a column of the model is all the same, as if masked: that it is equal says nothing.
+  bool is_same(std::int64_t ValuePlace::*of, std::int64_t line) const {
+    std::set<std::uint64_t> values;
+    const std::uint64_t frame = std::min(tokens_, stream_.frame_tokens);
+    for (std::uint64_t token = 0; token < frame && values.size() < 2; ++token) {
+      for (std::size_t field = 0; field < fields_.size(); ++field) {
+        if (manifest_.place(stream_, token, field).*of == line)
+          values.insert(expected_.raw(token, fields_[field]));
+      }
+    }
+    return values.size() < 2;
+  }
+
   void find_image_regions() {
     const std::int64_t width = manifest_.tile_width;
     const std::int64_t height = manifest_.height;
@@ -264,11 +281,21 @@ class PatternSearch {
       return reach < kWidestRim && 4 * (reach + 1) <= size;
     };
     const std::size_t before = found_.size();
-    if (is_small(top_, height)) add("only_first_rows", border("first", top_ + 1, "row"));
-    if (is_small(bottom_, height)) add("only_last_rows", border("last", bottom_ + 1, "row"));
-    if (is_small(left_, width)) add("only_first_columns", border("first", left_ + 1, "column"));
-    if (is_small(right_, width)) add("only_last_columns", border("last", right_ + 1, "column"));
-    if (found_.size() == before && is_small(rim_, std::min(width, height)))
+    // Most of them, or they are no border but lines near it.
+    const auto is_border = [&](std::int64_t reach, std::int64_t size, std::size_t lines) {
+      return is_small(reach, size) && 2 * static_cast<std::int64_t>(lines) > reach + 1;
+    };
+    const std::size_t rows = comparison_.rows.size(), columns = columns_.size();
+    if (is_border(top_, height, rows)) add("only_first_rows", border("first", top_ + 1, "row"));
+    if (is_border(bottom_, height, rows)) add("only_last_rows", border("last", bottom_ + 1, "row"));
+    if (is_border(left_, width, columns)) add("only_first_columns", border("first", left_ + 1, "column"));
+    if (is_border(right_, width, columns)) add("only_last_columns", border("last", right_ + 1, "column"));
+    if (found_.size() == before && rows == 1)
+      add("one_row", fmt::format("only row {} differs", comparison_.rows.begin()->first));
+    if (found_.size() == before && columns == 1)
+      add("one_column", fmt::format("only column {} differs", *columns_.begin()));
+    const std::int64_t within = (width - 2 * (rim_ + 1)) * (height - 2 * (rim_ + 1));
+    if (found_.size() == before && is_small(rim_, std::min(width, height)) && 2 * within >= width * height)
       add("only_rim", fmt::format("only the rim differs, {} px wide", rim_ + 1));
     if (const std::int64_t equal = equal_rim(); equal > 0 && is_small(equal - 1, std::min(width, height))) {
       add("all_but_rim",
@@ -277,17 +304,21 @@ class PatternSearch {
                       equal));
       return;
     }
-    const std::size_t rows = comparison_.rows.size();
     const ScanOrder order = stream_.shape.order;
     const std::int64_t first_row = order == ScanOrder::kTurned ? bottom_least_ : top_least_;
     const std::int64_t first_column = order == ScanOrder::kRaster ? left_least_ : right_least_;
-    if (first_row == 1 && 2 * rows >= static_cast<std::size_t>(height - 1) && height > 2) {
+    const auto tells = [&](std::int64_t ValuePlace::*of, std::int64_t line) { return !is_same(of, line); };
+    if (first_row == 1 && tells(&ValuePlace::row, order == ScanOrder::kTurned ? height - 1 : 0) &&
+        2 * rows >= static_cast<std::size_t>(height - 1) && height > 2) {
       add("rows_after_first",
           order == ScanOrder::kTurned
               ? "the last row is equal, those above it differ: what comes from the row below"
               : "the first row is equal, those after it differ: what comes from the row above");
     }
-    if (first_column == 1 && 2 * columns_.size() >= static_cast<std::size_t>(width - 1) && width > 2) {
+    if (first_column == 1 &&
+        tells(&ValuePlace::column,
+              manifest_.tile_begins[0] + (order == ScanOrder::kRaster ? 0 : width - 1)) &&
+        2 * columns >= static_cast<std::size_t>(width - 1) && width > 2) {
       add("columns_after_first",
           order == ScanOrder::kRaster
               ? "the first column is equal, those after it differ: what comes from the pixel to the left"

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "platform/cosim/value_difference.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <set>
+
+#include "modules/pixel.hpp"
+
+namespace parallax {
+namespace {
+
+constexpr std::uint64_t kInvalid = 0xFFF;
+constexpr std::size_t kBitsThatTell = 3;
+
+// Of the values that differ.
+struct Differing {
+  bool unknown = false;
+  bool by_one = true;               // each
+  bool validity = true;             // in each, one of the two is invalid
+  std::uint64_t lost = 0;           // that should be valid and are not,
+  std::uint64_t kept = 0;           // and the other way
+  std::uint64_t changed = 0;        // bits
+  std::set<std::uint64_t> instead;  // of invalid ones; two at most
+};
+
+Differing look_at(const VectorStream& stream, const TokenWords& expected, const TokenWords& got) {
+  const std::vector<TokenField>& fields = stream.shape.format.all();
+  Differing all;
+  for_each_difference(stream, expected, got, [&](std::uint64_t token, std::size_t index) {
+    const TokenField& field = fields[index];
+    all.unknown = all.unknown || got.unknown(token, field);
+    const std::uint64_t right = expected.raw(token, field), wrong = got.raw(token, field);
+    all.by_one = all.by_one && (right + 1 == wrong || wrong + 1 == right);
+    all.validity = all.validity && (right == kInvalid || wrong == kInvalid);
+    all.changed |= right ^ wrong;
+    ++(right == kInvalid ? all.kept : all.lost);
+    if (right == kInvalid && all.instead.size() < 2) all.instead.insert(wrong);
+  });
+  return all;
+}
+
+}  // namespace
+
+std::optional<DifferencePattern> find_value_difference(const VectorStream& stream, const TokenWords& expected,
+                                                       const TokenWords& got) {
+  const std::vector<TokenField>& fields = stream.shape.format.all();
+  const Differing all = look_at(stream, expected, got);
+  if (all.unknown || all.changed == 0) return std::nullopt;
+  const bool are_disparities = std::all_of(fields.begin(), fields.end(), [](const TokenField& field) {
+    return field.width == static_cast<std::size_t>(kDisparityBits) && field.name.rfind("disparity", 0) == 0;
+  });
+  if (are_disparities && all.validity) {
+    if (all.lost == 0 && all.instead.size() == 1) {
+      return DifferencePattern{"invalid_as",
+                               fmt::format("what is invalid has the value {}", *all.instead.begin())};
+    }
+    return DifferencePattern{
+        "only_validity",
+        fmt::format("no value is another, only which are valid: {} are that should not be, {} are not that "
+                    "should be",
+                    all.kept, all.lost)};
+  }
+  const bool are_numbers = std::all_of(fields.begin(), fields.end(), [](const TokenField& field) {
+    return field.width > kBitsThatTell && field.name != "code";
+  });
+  if (!are_numbers) return std::nullopt;
+  if (all.by_one) return DifferencePattern{"off_by_one", "what differs does so by 1: rounding"};
+  std::size_t right = 0;
+  while ((all.changed >> right & 1u) == 0) ++right;
+  if (right < kBitsThatTell) return std::nullopt;
+  return DifferencePattern{"upper_bits",
+                           fmt::format("the lowest {} bits of the values are right, others differ", right)};
+}
+
+}  // namespace parallax
