@@ -10,21 +10,23 @@ namespace {
 
 constexpr std::size_t kNumberBits = 64;
 
-std::string number_digits(std::uint64_t number) {
-  std::string digits(kNumberBits, '0');
-  for (std::size_t bit = 0; bit < kNumberBits; ++bit) {
-    if ((number >> bit & 1u) != 0) digits[kNumberBits - 1 - bit] = '1';
+// Highest bit first; `is_set` says of each whether it is 1.
+template <class IsSet>
+std::string binary_digits(std::size_t width, const IsSet& is_set) {
+  std::string digits(width, '0');
+  for (std::size_t bit = 0; bit < width; ++bit) {
+    if (is_set(bit)) digits[width - 1 - bit] = '1';
   }
   return digits;
 }
 
+std::string number_digits(std::uint64_t number) {
+  return binary_digits(kNumberBits, [number](std::size_t bit) { return (number >> bit & 1u) != 0; });
+}
+
 std::string token_digits(const TokenWords& words, std::uint64_t token) {
   if (token >= words.size()) return "x";
-  std::string digits(words.width(), '0');
-  for (std::size_t bit = 0; bit < words.width(); ++bit) {
-    if (words.bit(token, bit)) digits[words.width() - 1 - bit] = '1';
-  }
-  return digits;
+  return binary_digits(words.width(), [&](std::size_t bit) { return words.bit(token, bit); });
 }
 
 }  // namespace
@@ -80,12 +82,9 @@ void CircuitWaves::happened(const std::string& what, Cycles cycle) {
 
 std::string CircuitWaves::pin_value(std::size_t slot, std::size_t pin) const {
   const char* const bytes = bytes_.data() + slot * begins_.back() + begins_[pin];
-  const std::size_t width = circuit_.pins()[pin].width;
-  std::string digits(width, '0');
-  for (std::size_t bit = 0; bit < width; ++bit) {
-    if ((static_cast<unsigned char>(bytes[bit / 8]) >> bit % 8 & 1u) != 0) digits[width - 1 - bit] = '1';
-  }
-  return digits;
+  return binary_digits(circuit_.pins()[pin].width, [bytes](std::size_t bit) {
+    return (static_cast<unsigned char>(bytes[bit / 8]) >> bit % 8 & 1u) != 0;
+  });
 }
 
 PinWaves CircuitWaves::waves(const ClockDomain& clock) const {

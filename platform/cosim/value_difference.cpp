@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstdlib>
 #include <set>
 
 #include "modules/pixel.hpp"
@@ -12,7 +13,6 @@
 namespace parallax {
 namespace {
 
-constexpr std::uint64_t kInvalid = 0xFFF;
 constexpr std::size_t kBitsThatTell = 3;
 
 // Of the values that differ.
@@ -33,11 +33,11 @@ Differing look_at(const VectorStream& stream, const TokenWords& expected, const 
     const TokenField& field = fields[index];
     all.unknown = all.unknown || got.unknown(token, field);
     const std::uint64_t right = expected.raw(token, field), wrong = got.raw(token, field);
-    all.by_one = all.by_one && (right + 1 == wrong || wrong + 1 == right);
-    all.validity = all.validity && (right == kInvalid || wrong == kInvalid);
+    all.by_one = all.by_one && std::abs(expected.value(token, field) - got.value(token, field)) == 1;
+    all.validity = all.validity && (right == kInvalidDisparity || wrong == kInvalidDisparity);
     all.changed |= right ^ wrong;
-    ++(right == kInvalid ? all.kept : all.lost);
-    if (right == kInvalid && all.instead.size() < 2) all.instead.insert(wrong);
+    ++(right == kInvalidDisparity ? all.kept : all.lost);
+    if (right == kInvalidDisparity && all.instead.size() < 2) all.instead.insert(wrong);
   });
   return all;
 }

@@ -219,6 +219,43 @@ TEST_F(AlteredDump, AllButTheRim) {
   EXPECT_EQ(said([&](auto x, auto y) { return inside(x, y, 2); }), none);
 }
 
+// Scattered, but for what the values have in common.
+TEST_F(AlteredDump, OtherValues) {
+  TokenShape disparities(disparity_format());
+  disparities.row_tokens = 64;
+  make(disparities, 64, 48);
+  for (std::size_t i = 0; i < words_.size(); ++i) words_[i][0] = i % 3 == 0 ? 4095 : words_[i][0] % 4000;
+  const auto here = [](const ValuePlace& place) { return (place.column * 7 + place.row * 13) % 10 == 3; };
+  const auto value = [&here](auto other) {
+    return [&here, other](const ValuePlace& place, std::uint64_t v) { return here(place) ? other(v) : v; };
+  };
+  EXPECT_EQ(pattern(value([](auto v) { return v == 4095 ? 17 : v; })), "invalid_as");
+  EXPECT_EQ(pattern(value([](auto) { return 4095; })), "only_validity");
+  EXPECT_EQ(pattern(value([](auto v) { return v == 4095 ? v : v + 1; })), "off_by_one");
+  EXPECT_EQ(pattern(value([](auto v) { return v == 4095 ? v : v ^ (8 + v % 3 * 16); })), "upper_bits");
+  EXPECT_EQ(pattern(value([](auto v) { return v == 4095 ? v : v ^ (2 + v % 3 * 16); })), "none");
+  make(codes(64, 24), 64, 48);  // of codes, whose bits are no number, neither tells
+  EXPECT_EQ(pattern(value([](auto v) { return v ^ (8 + v % 3 * 16); })), "none");
+}
+
+// A line near the border is no border, and one that is masked cannot differ.
+TEST_F(AlteredDump, LinesOfTheImage) {
+  make(codes(64, 24), 64, 48);
+  const auto is_in = [](auto where) {
+    return [where](const ValuePlace& place, std::uint64_t value) {
+      return where(place.column, place.row) ? value + 1 + static_cast<std::uint64_t>(place.column % 3)
+                                            : value;
+    };
+  };
+  EXPECT_EQ(pattern(is_in([](auto, auto y) { return y == 10; })), "one_row");
+  EXPECT_EQ(pattern(is_in([](auto x, auto) { return x == 13; })), "one_column");
+  EXPECT_EQ(pattern(is_in([](auto, auto y) { return y == 10 || y == 11; })), "none");
+  // A blob that comes near each side is no rim if that would be most of the image.
+  EXPECT_EQ(pattern(is_in([](auto x, auto y) { return x > 8 && x < 12 && y > 3 && y < 44; })), "none");
+  for (std::size_t i = 0; i < words_.size(); i += 64) words_[i][0] = 0;
+  EXPECT_EQ(pattern(is_in([](auto x, auto) { return x > 0; })), "none");
+}
+
 // Where all are alike, a token that has another value is not one too many.
 TEST_F(AlteredDump, OtherValuesInAFlatImage) {
   make(codes(64, 24), 64, 48);
