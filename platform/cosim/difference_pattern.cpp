@@ -240,8 +240,9 @@ class PatternSearch {
   // Width of the rim in which nothing differs on any side, px; 0 also where none need differ there: so little
   // does elsewhere, or the rim is all the same, as if masked.
   std::int64_t equal_rim() const {
-    const auto [rim, widest] = std::minmax({left_least_, right_least_, top_least_, bottom_least_});
-    if (widest > kWidestRim) return 0;  // it lies in one part of the image
+    const std::initializer_list<std::int64_t> sides = {left_least_, right_least_, top_least_, bottom_least_};
+    if (std::max(sides) > kWidestRim) return 0;  // it lies in one part of the image
+    const std::int64_t rim = std::min(sides);
     const std::int64_t width = manifest_.tile_width, height = manifest_.height;
     const std::int64_t inside = (width - 2 * rim) * (height - 2 * rim);
     const double share = 1 - static_cast<double>(inside) / static_cast<double>(width * height);
