@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# cmake --install: the program, the libraries with their headers, the presets, and a CMake package for consumers.
+# cmake --install: the program, the libraries with their headers, the presets, the guide with the reference circuits, and
+# a CMake package for consumers.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -11,6 +12,12 @@ install(DIRECTORY platform/presets/ DESTINATION ${CMAKE_INSTALL_DATADIR}/paralla
 install(DIRECTORY platform/cosim/circuit/ DESTINATION ${CMAKE_INSTALL_DATADIR}/parallax/circuit)
 install(FILES platform/cosim/stage/parallax_stage.h platform/cosim/stage/parallax_stage.sv
   DESTINATION ${CMAKE_INSTALL_DATADIR}/parallax/stage)
+
+# The folders as they are here, so that the links from page to page hold.
+install(FILES README.md CHANGELOG.md LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(DIRECTORY platform modules tlm traces DESTINATION ${CMAKE_INSTALL_DOCDIR}
+  FILES_MATCHING PATTERN "*.md" PATTERN "*.png" PATTERN "*.sv" PATTERN cosim EXCLUDE)
+install(DIRECTORY modules DESTINATION ${CMAKE_INSTALL_DOCDIR} FILES_MATCHING PATTERN "*.hpp")
 
 set(package ${CMAKE_INSTALL_LIBDIR}/cmake/parallax)
 install(EXPORT parallax DESTINATION ${package} NAMESPACE parallax:: FILE parallax-targets.cmake)

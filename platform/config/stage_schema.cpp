@@ -184,7 +184,8 @@ void describe(Schema& schema, SubpixelConfig& config) {
   schema.choice(
       "subpixel.rounding", config.rounding,
       {{"truncate", SubpixelRounding::kTruncate}, {"nearest", SubpixelRounding::kNearest}},
-      "How the distance from the whole disparity is brought to 1/16 px: toward zero, or to the nearest.",
+      "How the distance from the whole disparity is brought to 1/16 px: toward zero, or to the nearest, halves "
+      "away from zero, and to 8/16 only where the cost on that side is as low as the winner's.",
       chosen("not published"));
   schema.choice("subpixel.winner", config.winner,
                 {{"lowest", TieRule::kLowest}, {"highest", TieRule::kHighest}},

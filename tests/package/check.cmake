@@ -12,6 +12,11 @@ function(run)
 endfunction()
 
 run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${area}/prefix)
+foreach(page README.md platform/doc/rtl.md modules/README.md modules/census.hpp modules/rtl/census.sv)
+  if(NOT EXISTS ${area}/prefix/share/doc/parallax/${page})
+    message(FATAL_ERROR "the guide that is installed has no ${page}")
+  endif()
+endforeach()
 run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR} -B ${area}/build -G ${GENERATOR}
   -DCMAKE_PREFIX_PATH=${area}/prefix -DCMAKE_CXX_FLAGS=${FLAGS} -DCMAKE_FIND_USE_PACKAGE_REGISTRY=OFF)
 run(${CMAKE_COMMAND} --build ${area}/build)
