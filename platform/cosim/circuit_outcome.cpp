@@ -24,11 +24,13 @@ CircuitOutcome circuit_outcome(const std::string& module, const CircuitStage& ci
                                const StageRecord& model, const CircuitOptions& options) {
   CircuitOutcome outcome;
   outcome.fault = circuit.fault();
-  outcome.as_model = outcome.fault.empty() && circuit.breach().empty();
+  outcome.as_model = outcome.fault.empty() && circuit.breach().empty() && circuit.framing_breach().empty();
   outcome.text = fmt::format("circuit             {} in the place of {}, clocked for {}\n", module,
                              model.manifest.stage, cycles_text(static_cast<std::int64_t>(circuit.cycles())));
   if (!outcome.fault.empty()) outcome.text += fmt::format("given up            {}\n", outcome.fault);
   if (!circuit.breach().empty()) outcome.text += fmt::format("handshake           {}\n", circuit.breach());
+  if (!circuit.framing_breach().empty())
+    outcome.text += fmt::format("framing             {}\n", circuit.framing_breach());
   const std::string prefix = "circuit_" + model.manifest.stage;
   if (const std::optional<PinWaves> waves = circuit.waves()) {
     outcome.files.push_back({prefix + ".vcd", to_vcd(*waves)});
@@ -60,6 +62,7 @@ CircuitOutcome circuit_outcome(const std::string& module, const CircuitStage& ci
                   {"as_model", outcome.as_model}};
   if (!outcome.fault.empty()) outcome.json["given_up"] = outcome.fault;
   if (!circuit.breach().empty()) outcome.json["handshake"] = circuit.breach();
+  if (!circuit.framing_breach().empty()) outcome.json["framing"] = circuit.framing_breach();
   outcome.json["streams"] = std::move(streams);
   return outcome;
 }

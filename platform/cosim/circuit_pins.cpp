@@ -10,6 +10,7 @@
 
 #include "platform/config/nearest_name.hpp"
 #include "platform/cosim/pin_lookup.hpp"
+#include "platform/cosim/signal_bits.hpp"
 #include "tlm/error.hpp"
 
 namespace parallax {
@@ -51,8 +52,12 @@ const SharedNames& shared(const std::string& role) {
       {"ready",
        {{"in_ready", "i_ready", "ready_o", "s_axis_tready", "din_ready", "ready"},
         {"out_ready", "o_ready", "ready_i", "m_axis_tready", "dout_ready", "ready"}}},
-      {"first", {{"in_first", "in_sof", "sof_in", "i_sof", "sof", "s_axis_tuser"}, {}}},
-      {"last", {{"in_last", "in_eol", "eol_in", "i_eol", "eol", "s_axis_tlast"}, {}}},
+      {"first",
+       {{"in_first", "in_sof", "sof_in", "i_sof", "sof", "s_axis_tuser"},
+        {"out_first", "out_sof", "sof_out", "o_sof", "sof", "m_axis_tuser"}}},
+      {"last",
+       {{"in_last", "in_eol", "eol_in", "i_eol", "eol", "s_axis_tlast"},
+        {"out_last", "out_eol", "eol_out", "o_eol", "eol", "m_axis_tlast"}}},
       {"row", {{"in_row", "in_y", "row", "y"}, {}}},
       {"column", {{"in_column", "in_col", "in_x", "column", "col", "x"}, {}}},
   };
@@ -65,7 +70,7 @@ class Finder {
       : circuit_(circuit), stage_(stage), lookup_(circuit) {
     for (const std::string& word : options.pins) {
       const std::size_t equals = word.find('=');
-      if (equals == std::string::npos || equals == 0 || equals + 1 == word.size()) {
+      if (equals == std::string::npos || equals == 0) {
         throw UserError(fmt::format(
             "--circuit-pins: '{}' is not ROLE=PIN, as in_left.data=pixel or clock=clk", excerpt(word)));
       }
@@ -120,13 +125,10 @@ class Finder {
                                  bits.name(), bits_text(bits), role, width));
   }
 
-  // An AXI stream is whole bytes; what the token does not need of the last one lies above it.
-  static bool is_padded(const PinBits& bits, std::size_t width) {
-    const std::string name = bits.pin().name;
-    const std::string ending = "tdata";
-    return bits.width() == (width + 7) / 8 * 8 && bits.width() == bits.pin().width &&
-           name.size() >= ending.size() &&
-           name.compare(name.size() - ending.size(), ending.size(), ending) == 0;
+  // Whether the user says that no pin has this role.
+  bool is_given_up(const std::string& role) const {
+    const auto named = named_.find(role);
+    return named != named_.end() && named->second.empty();
   }
 
   // The pin that the user names for a role, or the first of these names that there is; of this direction and
@@ -134,6 +136,7 @@ class Finder {
   PinBits take(const std::string& role, const Names& names, bool is_input, std::size_t width) {
     roles_.push_back(role);
     PinBits found;
+    if (is_given_up(role)) return found;
     if (const auto named = named_.find(role); named != named_.end()) {
       found = lookup_.named(named->second, fmt::format("--circuit-pins {}={}", role, excerpt(named->second)));
     } else if (const parallax_pin* const pin = lookup_.find(names)) {
@@ -147,15 +150,21 @@ class Finder {
     }
     lookup_.take(found);
     if (width == 0 || found.width() == width) return found;
-    if (!is_padded(found, width)) throw wrong_width(found, role, width);
+    if (found.width() != found.pin().width || !is_padded_tdata(found.pin().name, found.width(), width))
+      throw wrong_width(found, role, width);
     return PinBits(found.pin(), 0, width);
   }
 
-  PinBits take_at(const VectorStream& stream, const std::string& role, bool is_input, std::size_t width) {
+  Names names_at(const VectorStream& stream, const std::string& role) const {
     Names names;
     for (const std::string& prefix : prefixes(stream)) {
       for (const std::string& ending : endings(role)) names.push_back(joined(prefix, ending));
     }
+    return names;
+  }
+
+  PinBits take_at(const VectorStream& stream, const std::string& role, bool is_input, std::size_t width) {
+    Names names = names_at(stream, role);
     if (role == "data" && names.size() > 6)  // the only port of its direction
       names.push_back(stream.is_input ? "data_in" : "data_out");
     return take(stream.port + "." + role, names, is_input, width);
@@ -173,7 +182,11 @@ class Finder {
     }
     pins.valid = take_at(stream, "valid", stream.is_input, 1);
     pins.ready = take_at(stream, "ready", !stream.is_input, 1);
-    if (!stream.is_input) return pins;
+    if (!stream.is_input) {
+      pins.first = mark_at(stream, "first");
+      pins.last = mark_at(stream, "last");
+      return pins;
+    }
     pins.first = take_at(stream, "first", true, 1);
     pins.last = take_at(stream, "last", true, 1);
     pins.keep = take_at(stream, "keep", true, 0);
@@ -181,6 +194,21 @@ class Finder {
     pins.column = counter_at(stream, "column");
     pins.group = counter_at(stream, "group");
     return pins;
+  }
+
+  // What is beside an output's data. Nothing needs it: a pin of such a name that is something else is left.
+  PinBits mark_at(const VectorStream& stream, const std::string& role) {
+    if (named_.count(stream.port + "." + role) > 0) return take_at(stream, role, false, 1);
+    roles_.push_back(stream.port + "." + role);
+    return mark_of(lookup_.find(names_at(stream, role), false));
+  }
+
+  // A tuser may be wider: its lowest bit is the start of frame.
+  PinBits mark_of(const parallax_pin* pin) {
+    if (pin == nullptr || (pin->width > 1 && !ends_with(pin->name, "user"))) return {};
+    const PinBits mark(*pin, 0, 1);
+    lookup_.take(mark);
+    return mark;
   }
 
   // The largest number that stands on the pin.
@@ -219,26 +247,28 @@ class Finder {
       const bool counts = of == &PortPins::row || of == &PortPins::column;
       if (pin == nullptr || (!counts && pin->width != 1)) return;
       for (std::size_t i = 0; i < ports.size(); ++i) {
-        if (ports[i].is_input != is_input) continue;
+        if (ports[i].is_input != is_input || is_given_up(ports[i].port + "." + role)) continue;
         ports[i].*of = PinBits(*pin);
         if (counts) check_counter(ports[i].*of, stage_.streams[i], role);
+        lookup_.take(PinBits(*pin));
       }
-      lookup_.take(PinBits(*pin));
     };
     share_one("valid", &PortPins::valid, is_input);
     share_one("ready", &PortPins::ready, !is_input);
-    if (!is_input || !pass_together(ports)) return;
-    share_one("first", &PortPins::first, true);
-    share_one("last", &PortPins::last, true);
+    if (!pass_together(ports, is_input)) return;
+    share_one("first", &PortPins::first, is_input);
+    share_one("last", &PortPins::last, is_input);
+    if (!is_input) return;
     share_one("row", &PortPins::row, true);
     share_one("column", &PortPins::column, true);
   }
 
-  // Whether tokens pass at all inputs in the same cycle: there is one, they share a handshake, or have none.
-  static bool pass_together(const std::vector<PortPins>& ports) {
+  // Whether tokens pass at all ports of a direction in the same cycle: there is one, they share a handshake,
+  // or have none.
+  static bool pass_together(const std::vector<PortPins>& ports, bool is_input) {
     const PortPins* first = nullptr;
     for (const PortPins& port : ports) {
-      if (!port.is_input) continue;
+      if (port.is_input != is_input) continue;
       if (first == nullptr) first = &port;
       const bool without = !first->valid && !first->ready && !port.valid && !port.ready;
       if (first != &port && !without && !first->joined_with(port)) return false;

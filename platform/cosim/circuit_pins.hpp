@@ -25,9 +25,10 @@ struct PortPins {
   std::vector<Data> data;  ///< one for the whole token, or one for each field
   PinBits valid;
   PinBits ready;
+  // Beside the data.
+  PinBits first;  ///< 1 with the first token of a frame
+  PinBits last;   ///< 1 with the last token of a row
   // Beside an input's data.
-  PinBits first;   ///< 1 with the first token of a frame
-  PinBits last;    ///< 1 with the last token of a row
   PinBits keep;    ///< all ones: every byte counts
   PinBits row;     ///< of the token's first pixel in the image, or the tile
   PinBits column;  ///< likewise; of tokens that know no rows their number in the frame

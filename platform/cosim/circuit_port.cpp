@@ -107,7 +107,8 @@ CircuitOutput::CircuitOutput(const CircuitPort& port, std::uint64_t seed)
       pass_tokens_(port.pass_tokens()),
       stalls_(port.options.stall, seed),
       dump_{TokenWords(port.stream.shape.format.width().size()), {}},
-      skip_(port.options.skip) {
+      skip_(port.options.skip),
+      framing_(port.stage, port.stream, port.pins) {
   dump_.words.reserve(port.model.words.size());
   dump_.cycles.reserve(port.model.cycles.size());
 }
@@ -140,10 +141,17 @@ void CircuitOutput::look(Cycles cycle, bool always) {
                           port_.stream.name, tokens_, cycle.count());
   }
   if (!valid_ || (!held_ && ready_)) return;
-  pins.data[0].pin.read(bits_);
-  if (held_ && bits_ != before_) {
-    breach_ = fmt::format("{}: the data change before token {} was taken, in cycle {}", port_.stream.name,
-                          tokens_, cycle.count());
+  read();
+  const auto changed = [&](const std::string& what) {
+    breach_ = fmt::format("{}: {} before token {} was taken, in cycle {}", port_.stream.name, what, tokens_,
+                          cycle.count());
+  };
+  if (held_ && bits_ != before_) changed("the data change");
+  for (const auto& [mark, before] :
+       {std::pair{pins.first, &first_before_}, std::pair{pins.last, &last_before_}}) {
+    const bool value = mark && mark.any();
+    if (held_ && value != *before && breach_.empty()) changed(mark.name() + " changes");
+    *before = value;
   }
   before_.swap(bits_);
 }
@@ -182,6 +190,7 @@ bool CircuitOutput::put(Cycles cycle, bool stands, std::uint64_t frames) {
             : fmt::format("{}: a token more than the {} of frame {}, in cycle {}", port_.stream.name,
                           port_.stream.frame_tokens, frames - 1, cycle.count());
   }
+  framing_.look(tokens_, cycle);
   read();
   const bool has_value = port_.has_value(tokens_);
   if (has_value) {

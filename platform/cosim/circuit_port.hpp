@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "platform/cosim/circuit_framing.hpp"
 #include "platform/cosim/circuit_pins.hpp"
 #include "platform/cosim/dump_file.hpp"
 #include "platform/cosim/stage_record.hpp"
@@ -105,6 +106,7 @@ class CircuitOutput {
   bool owes(std::uint64_t frames) const { return tokens_ < frames * port_.stream.frame_tokens; }
   /// The first breach of the handshake; empty: none.
   const std::string& breach() const { return breach_; }
+  const CircuitFraming& framing() const { return framing_; }
   /// Whether a value was not the model's.
   bool differs() const { return differs_; }
   /// Whether a token left later than the bound allows, if there is one.
@@ -125,11 +127,14 @@ class CircuitOutput {
   std::uint64_t tokens_ = 0;  // that were written
   bool ready_ = false;
   bool valid_ = false;
-  bool held_ = false;  // a token was offered and not taken
+  bool held_ = false;          // a token was offered and not taken,
+  bool first_before_ = false;  // and this was beside it
+  bool last_before_ = false;
   bool differs_ = false;
   bool late_ = false;
   Cycles blocked_{0};
   std::string breach_;
+  CircuitFraming framing_;
   std::vector<std::uint64_t> bits_, before_, value_;
 };
 

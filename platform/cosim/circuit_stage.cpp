@@ -100,7 +100,7 @@ void CircuitStage::start_of_simulation() {
   if (pins_.enable) pins_.enable.set(1);
   for (const PortPins& port : pins_.ports) {
     for (const PinBits& pin : {port.is_input ? port.valid : port.ready, port.first, port.last}) {
-      if (pin) pin.set(0);
+      if (pin && pin.pin().is_input != 0) pin.set(0);
     }
     if (port.keep)
       port.keep.set(std::vector<std::uint64_t>((port.keep.width() + 63) / 64, ~std::uint64_t{0}));
@@ -277,6 +277,8 @@ void CircuitStage::look_for_first() {
     const std::uint64_t token = output->tokens() - 1;
     if (!output->breach().empty()) {
       waves_->happened(output->breach(), cycle_);
+    } else if (!output->framing().breach().empty()) {
+      waves_->happened(output->framing().breach(), cycle_);
     } else if (output->differs()) {
       waves_->happened(fmt::format("{}: {} is the first that differs", stream, output->port().place(token)),
                        cycle_);
@@ -326,6 +328,14 @@ const std::string& CircuitStage::breach() const {
   static const std::string none;
   for (const auto& output : outputs_) {
     if (!output->breach().empty()) return output->breach();
+  }
+  return none;
+}
+
+const std::string& CircuitStage::framing_breach() const {
+  static const std::string none;
+  for (const auto& output : outputs_) {
+    if (!output->framing().breach().empty()) return output->framing().breach();
   }
   return none;
 }

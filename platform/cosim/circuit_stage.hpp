@@ -61,6 +61,8 @@ class CircuitStage final : public sc_core::sc_module, public Actor, public Circu
   const std::string& fault() const { return fault_; }
   /// The first breach of the handshake; empty: none.
   const std::string& breach() const;
+  /// The first start of frame or end of line, beside an output, that is not in its place; empty: none.
+  const std::string& framing_breach() const;
   std::uint64_t cycles() const { return clocked_; }  ///< in which it was clocked
 
   /// Before the simulation: keeps what the pins do in so many cycles before and behind the first difference.

@@ -4,31 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 
 #include "platform/config/nearest_name.hpp"
+#include "platform/cosim/signal_bits.hpp"
 #include "tlm/error.hpp"
 
 namespace parallax {
-namespace {
-
-// "7" or "15:8", without the brackets: the highest and the lowest bit.
-std::optional<std::pair<std::size_t, std::size_t>> read_range(const std::string& text) {
-  const auto number = [](const std::string& digits) -> std::optional<std::size_t> {
-    std::size_t value = 0;
-    const auto [stop, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-    if (digits.empty() || error != std::errc() || stop != digits.data() + digits.size()) return std::nullopt;
-    return value;
-  };
-  const std::size_t colon = text.find(':');
-  const auto high = number(text.substr(0, colon));
-  const auto low = colon == std::string::npos ? high : number(text.substr(colon + 1));
-  if (!high || !low || *high < *low) return std::nullopt;
-  return std::pair{*high, *low};
-}
-
-}  // namespace
-
 const parallax_pin* PinLookup::pin(const std::string& name) const {
   for (const parallax_pin& each : circuit_.pins()) {
     if (name == each.name) return &each;
@@ -43,22 +24,20 @@ PinLookup::Names PinLookup::names() const {
 }
 
 PinBits PinLookup::named(const std::string& word, const std::string& option) const {
-  const std::size_t bracket = word.find('[');
-  const std::string name = word.substr(0, bracket);
-  const parallax_pin* const found = pin(name);
+  const auto bits = read_named_bits(word);
+  if (!bits) throw UserError(fmt::format("{}: a pin is PIN, PIN[BIT] or PIN[HIGH:LOW]", option));
+  const parallax_pin* const found = pin(bits->name);
   if (found == nullptr) {
     throw UserError(fmt::format("{}: circuit {} has no such pin; the nearest is {}", option, circuit_.name(),
-                                nearest_name(name, names())));
+                                nearest_name(bits->name, names())));
   }
-  if (bracket == std::string::npos) return PinBits(*found);
-  const bool closed = word.back() == ']';
-  const auto range = closed ? read_range(word.substr(bracket + 1, word.size() - bracket - 2)) : std::nullopt;
-  if (!range) throw UserError(fmt::format("{}: a pin is PIN, PIN[BIT] or PIN[HIGH:LOW]", option));
-  if (range->first >= found->width) {
-    throw UserError(fmt::format("{}: pin {} of circuit {} has the bits {} to 0", option, name,
+  if (!bits->range) return PinBits(*found);
+  const auto [high, low] = *bits->range;
+  if (high >= found->width) {
+    throw UserError(fmt::format("{}: pin {} of circuit {} has the bits {} to 0", option, bits->name,
                                 circuit_.name(), found->width - 1));
   }
-  return PinBits(*found, range->second, range->first - range->second + 1);
+  return PinBits(*found, low, high - low + 1);
 }
 
 const parallax_pin* PinLookup::find(const Names& names, std::optional<bool> is_input) const {
