@@ -3,15 +3,33 @@
 
 #include <fmt/format.h>
 
-#include <string_view>
+#include <algorithm>
 #include <vector>
 
 #include "platform/config/nearest_name.hpp"
+#include "platform/cosim/signal_bits.hpp"
 #include "platform/cosim/vcd_waves.hpp"
 #include "tlm/error.hpp"
 
 namespace parallax {
 namespace {
+
+// Bits of a signal that lie beside each other.
+struct SignalBits {
+  const VcdWaves::Signal* signal = nullptr;  // null: there is none
+  std::size_t low = 0;
+  std::size_t width = 0;
+
+  // Of the digits of a value of the signal, the highest first; missing ones are 0, or x and z go on.
+  std::string of(const std::string& digits) const {
+    if (width == signal->width || digits.empty()) return digits;
+    const char above = digits[0] == '1' ? '0' : digits[0];
+    std::string bits(width, above);
+    for (std::size_t i = 0; i < width && low + i < digits.size(); ++i)
+      bits[width - 1 - i] = digits[digits.size() - 1 - (low + i)];
+    return bits;
+  }
+};
 
 // The signals of a stream among the waves.
 class StreamSignals {
@@ -19,34 +37,48 @@ class StreamSignals {
   StreamSignals(const VcdWaves& waves, const std::string& path, const VectorStream& stream,
                 const DumpSignals& wanted)
       : waves_(waves), path_(path), stream_(stream) {
-    data = find("data", wanted.data, names("_data"), true);
-    valid = find("valid", wanted.valid, names("_valid"), true);
-    ready = find("ready", wanted.ready, names("_ready"), false);
+    data = find("data", wanted.data, names("data"), true);
+    valid = find("valid", wanted.valid, names("valid"), true);
+    ready = find("ready", wanted.ready, names("ready"), false);
     clock = find("clock", wanted.clock, {"clk", "clock", "aclk"}, true);
   }
 
-  const VcdWaves::Signal* data = nullptr;
-  const VcdWaves::Signal* valid = nullptr;
-  const VcdWaves::Signal* ready = nullptr;  // null: there is none
-  const VcdWaves::Signal* clock = nullptr;
+  SignalBits data, valid, ready, clock;
 
  private:
-  std::vector<std::string> names(const char* ending) const {
-    std::vector<std::string> all{stream_.port + ending, stream_.name + ending};
-    if (std::string_view(ending) == "_data") {
+  std::vector<std::string> names(const std::string& what) const {
+    std::vector<std::string> all;
+    for (const char* const before : {"_", "_t"}) {
+      all.push_back(stream_.port + before + what);
+      all.push_back(stream_.name + before + what);
+    }
+    if (what == "data") {
       all.push_back(stream_.port);
       all.push_back(stream_.name);
     }
     return all;
   }
 
-  const VcdWaves::Signal* find(const char* what, const std::string& asked,
-                               std::vector<std::string> candidates, bool needed) const {
+  SignalBits find(const char* what, const std::string& asked, std::vector<std::string> candidates,
+                  bool needed) const {
     if (!asked.empty()) candidates = {asked};
     for (const std::string& name : candidates) {
-      if (const VcdWaves::Signal* const found = waves_.find(name)) return found;
+      const auto bits = read_named_bits(name);
+      if (!bits)
+        throw UserError(fmt::format("--signals {}={}: a signal is NAME, NAME[BIT] or NAME[HIGH:LOW]", what,
+                                    excerpt(name)));
+      const VcdWaves::Signal* const found = waves_.find(bits->name);
+      if (found == nullptr) continue;
+      if (!bits->range) return {found, 0, found->width};
+      const auto [high, low] = *bits->range;
+      const std::size_t a = found->place(high), b = found->place(low);
+      if (std::max(a, b) >= found->width) {
+        throw UserError(fmt::format("{}: --signals {}={}: {} has the bits [{}:{}]", path_, what,
+                                    excerpt(name), found->name, found->left, found->right));
+      }
+      return {found, std::min(a, b), std::max(a, b) - std::min(a, b) + 1};
     }
-    if (!needed && asked.empty()) return nullptr;
+    if (!needed && asked.empty()) return {};
     std::vector<std::string> all;
     for (const VcdWaves::Signal& signal : waves_.signals()) all.push_back(signal.name);
     if (all.empty()) throw UserError(fmt::format("{}: no signals in this VCD", path_));
@@ -67,29 +99,34 @@ Dump tokens_of_vcd(const std::string& text, const std::string& path, const Vecto
   VcdWaves waves(text, path);
   const StreamSignals signals(waves, path, stream, wanted);
   const std::size_t width = stream.shape.format.width().size();
-  if (signals.data->width != width) {
-    throw UserError(fmt::format("{}: {} has {} bits, {} has {}", path, signals.data->name,
-                                signals.data->width, stream.name, width));
+  SignalBits bits = signals.data;
+  if (bits.width != width) {
+    if (bits.width != bits.signal->width || !is_padded_tdata(bits.signal->name, bits.width, width)) {
+      throw UserError(fmt::format("{}: {} has {} bits, {} has {}", path, bits.signal->name, bits.width,
+                                  stream.name, width));
+    }
+    bits.width = width;
   }
   Dump dump{TokenWords(width), {}};
-  std::vector<const VcdWaves::Signal*> watched{signals.clock, signals.data, signals.valid};
-  if (signals.ready != nullptr) watched.push_back(signals.ready);
+  std::vector<const VcdWaves::Signal*> watched{signals.clock.signal, signals.data.signal,
+                                               signals.valid.signal};
+  if (signals.ready.signal != nullptr) watched.push_back(signals.ready.signal);
   std::string data, valid, ready, clock;
   std::int64_t cycle = 0;
   waves.read(watched, [&](std::int64_t, const VcdWaves::Changes& changes) {
-    const std::string* const edge = changes[0];
-    if (edge != nullptr && *edge == "1" && clock == "0") {
-      if (valid == "1" && (signals.ready == nullptr || ready == "1")) {
+    const std::string edge = changes[0] != nullptr ? signals.clock.of(*changes[0]) : clock;
+    if (edge == "1" && clock == "0") {
+      if (valid == "1" && (signals.ready.signal == nullptr || ready == "1")) {
         if (const std::string wrong = dump.words.append_binary(data); !wrong.empty())
           throw waves.fault(wrong);
         dump.cycles.push_back(cycle);
       }
       ++cycle;
     }
-    if (edge != nullptr) clock = *edge;
-    if (changes[1] != nullptr) data = *changes[1];
-    if (changes[2] != nullptr) valid = *changes[2];
-    if (changes.size() > 3 && changes[3] != nullptr) ready = *changes[3];
+    clock = edge;
+    if (changes[1] != nullptr) data = bits.of(*changes[1]);
+    if (changes[2] != nullptr) valid = signals.valid.of(*changes[2]);
+    if (changes.size() > 3 && changes[3] != nullptr) ready = signals.ready.of(*changes[3]);
   });
   return dump;
 }

@@ -19,6 +19,21 @@ bool is_named(const std::string& full, const std::string& name) {
          full.compare(full.size() - name.size(), name.size(), name) == 0;
 }
 
+// "[15:0]", "[0:15]", "[3]"; where there is none, or one that is not as wide, the lowest bit is bit 0.
+void read_range(const std::string& text, VcdWaves::Signal& signal) {
+  std::size_t left = 0, right = 0;
+  const char* const end = text.data() + text.size();
+  if (text.empty() || text.front() != '[') return;
+  auto read = std::from_chars(text.data() + 1, end, left);
+  right = left;
+  if (read.ec == std::errc() && read.ptr != end && *read.ptr == ':')
+    read = std::from_chars(read.ptr + 1, end, right);
+  if (read.ec != std::errc() || read.ptr == end || *read.ptr != ']') return;
+  if (std::max(left, right) - std::min(left, right) + 1 != signal.width) return;
+  signal.left = left;
+  signal.right = right;
+}
+
 }  // namespace
 
 VcdWaves::VcdWaves(const std::string& text, const std::string& path) : text_(text), path_(path) {
@@ -85,14 +100,25 @@ void VcdWaves::read_variable(const std::vector<std::string>& scopes) {
   const std::string width(next());
   const std::string id(next());
   const std::string name(next());
+  std::string_view more = next();
   const bool is_number = !width.empty() && width.size() < 8 &&
                          std::all_of(width.begin(), width.end(), [](char c) { return c >= '0' && c <= '9'; });
   if (!is_number || name.empty()) throw fault("a $var without width, identifier and name");
   std::string full;
   for (const std::string& scope : scopes) full += scope + ".";
+  Signal signal{full, id, std::stoul(width)};
   // Some write the range behind the name without a blank.
-  signals_.push_back({full + name.substr(0, name.find('[')), id, std::stoul(width)});
-  skip_to_end();
+  std::string range(more.substr(0, more.find(']') + 1));
+  const std::size_t bracket = name.find('[');
+  if (bracket != std::string::npos) range = name.substr(bracket);
+  signal.name += name.substr(0, bracket);
+  signal.left = std::max<std::size_t>(signal.width, 1) - 1;
+  read_range(range, signal);
+  signals_.push_back(std::move(signal));
+  while (more != "$end") {
+    if (more.empty()) throw fault("the file ends within a command, without $end");
+    more = next();
+  }
 }
 
 std::int64_t VcdWaves::time_of(std::string_view word) const {

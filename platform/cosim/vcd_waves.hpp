@@ -19,6 +19,11 @@ class VcdWaves {
     std::string name;  ///< with its scopes, "bench.dut.out_left_data"
     std::string id;
     std::size_t width = 0;  ///< bits
+    /// The index of the highest and of the lowest bit, as declared: [15:0], [0:15]; 0 of a signal of one bit.
+    std::size_t left = 0;
+    std::size_t right = 0;
+    /// How far above the lowest bit the one of this index lies; below `width` if there is one.
+    std::size_t place(std::size_t index) const { return left >= right ? index - right : right - index; }
   };
   /// Of each signal that is watched the value it changes to, as binary digits; null where it does not change.
   using Changes = std::vector<const std::string*>;

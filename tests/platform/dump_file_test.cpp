@@ -131,6 +131,48 @@ TEST_F(DumpFile, SignalsOfOtherNames) {
       "one");
 }
 
+// Values as VCD shortens them: what is missing above is 0, or goes on as x.
+TEST_F(DumpFile, PartsOfSignals) {
+  const std::string waves =
+      "$var wire 1 ! ck $end\n$var wire 18 # bus [17:0] $end\n$var wire 14 % down[1:14] $end\n"
+      "$var wire 16 & high [19:4] $end\n$enddefinitions $end\n"
+      "#0 0! b11000000000101101 # b10000000000110 % b1010000 & #5 1! #6 0! bx01101 # #7 1! #8 0! b1 #";
+  const auto code_of = [&](const DumpSignals& signals, std::size_t bits) {
+    const Dump dump = read(waves, census_code_format(bits), signals);
+    EXPECT_EQ(dump.words.size(), signals.ready.empty() ? 2U : 1U);
+    EXPECT_EQ(dump.words.unknown(dump.words.size() - 1), signals.data.rfind("bus[1", 0) == 0);
+    return dump.words.raw(0, census_code_format(bits).all().front());
+  };
+  EXPECT_EQ(code_of({"bus[11:0]", "bus[0]", "", "ck"}, 12), 45U);
+  EXPECT_EQ(code_of({"bus[15:4]", "bus[0]", "", "ck"}, 12), 0x802U);
+  EXPECT_EQ(code_of({"bus[3:0]", "bus[0]", "bus[16]", "ck"}, 4), 13U) << "of the second, ready is unknown";
+  EXPECT_EQ(code_of({"down[14:11]", "bus[0]", "", "ck"}, 4), 6U);
+  EXPECT_EQ(code_of({"down[14:3]", "bus[0]", "", "ck"}, 12), 6U);
+  EXPECT_EQ(code_of({"high[11:8]", "bus[0]", "", "ck"}, 4), 5U);
+  const std::string path = folder_ / "dump";
+  const auto refused = [&](const std::string& data) {
+    return error_of([&] { read(waves, census_code_format(12), {data, "bus[0]", "", "ck"}); });
+  };
+  EXPECT_EQ(refused("bus[18:7]"), path + ": --signals data=bus[18:7]: bus has the bits [17:0]");
+  EXPECT_EQ(refused("high[11:0]"), path + ": --signals data=high[11:0]: high has the bits [19:4]");
+  EXPECT_EQ(refused("bus[12"), "--signals data=bus[12: a signal is NAME, NAME[BIT] or NAME[HIGH:LOW]");
+  EXPECT_EQ(refused("bus[12:0]"), path + ": bus has 13 bits, left_codes has 12");
+}
+
+// Of 12 bits in two bytes the others are nobody's, as they are where the circuit runs in the machine.
+TEST_F(DumpFile, AnAxiStreamIsWholeBytes) {
+  const std::string values = "$enddefinitions $end\n#0 0! bx111000000101101 # 1$ #5 1! #6 0! b1 # #7 1!";
+  const std::string head = "$var wire 1 ! clk $end\n$var wire 1 $ out_left_tvalid $end\n$var wire 16 # ";
+  const Dump dump = read(head + "out_left_tdata $end\n" + values, census_code_format(12));
+  ASSERT_EQ(dump.words.size(), 2U);
+  EXPECT_EQ(dump.words.raw(0, census_code_format(12).all().front()), 45U);
+  EXPECT_FALSE(dump.words.unknown(0));
+  EXPECT_EQ(dump.words.raw(1, census_code_format(12).all().front()), 1U);
+  EXPECT_EQ(error(head + "out_left_data $end\n" + values), ": out_left_data has 16 bits, left_codes has 12");
+  EXPECT_EQ(error(head + "out_left_tdata $end\n" + values, census_code_format(8)),
+            ": out_left_tdata has 16 bits, left_codes has 8");
+}
+
 TEST_F(DumpFile, DamagedWaves) {
   EXPECT_EQ(error("$var wire 1"), ", line 1: a $var without width, identifier and name");
   EXPECT_EQ(error("$scope module x"), ", line 1: the file ends within a command, without $end");
