@@ -31,6 +31,8 @@ CircuitOutcome circuit_outcome(const std::string& module, const CircuitStage& ci
   if (!circuit.breach().empty()) outcome.text += fmt::format("handshake           {}\n", circuit.breach());
   if (!circuit.framing_breach().empty())
     outcome.text += fmt::format("framing             {}\n", circuit.framing_breach());
+  for (const std::string& note : circuit.notes())
+    outcome.text += fmt::format("note                {}\n", note);
   const std::string prefix = "circuit_" + model.manifest.stage;
   if (const std::optional<PinWaves> waves = circuit.waves()) {
     outcome.files.push_back({prefix + ".vcd", to_vcd(*waves)});
@@ -63,6 +65,7 @@ CircuitOutcome circuit_outcome(const std::string& module, const CircuitStage& ci
   if (!outcome.fault.empty()) outcome.json["given_up"] = outcome.fault;
   if (!circuit.breach().empty()) outcome.json["handshake"] = circuit.breach();
   if (!circuit.framing_breach().empty()) outcome.json["framing"] = circuit.framing_breach();
+  if (!circuit.notes().empty()) outcome.json["notes"] = circuit.notes();
   outcome.json["streams"] = std::move(streams);
   return outcome;
 }

@@ -106,6 +106,10 @@ class CircuitOutput {
   bool owes(std::uint64_t frames) const { return tokens_ < frames * port_.stream.frame_tokens; }
   /// The first breach of the handshake; empty: none.
   const std::string& breach() const { return breach_; }
+  /// A breach that is seen elsewhere.
+  void breaks(const std::string& what) {
+    if (breach_.empty()) breach_ = what;
+  }
   const CircuitFraming& framing() const { return framing_; }
   /// Whether a value was not the model's.
   bool differs() const { return differs_; }

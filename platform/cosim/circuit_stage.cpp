@@ -63,6 +63,9 @@ CircuitStage::CircuitStage(const sc_core::sc_module_name& name, Circuit& circuit
   }
   join(inputs_, joined_inputs_);
   join(outputs_, joined_outputs_);
+  if (options.stall > 0) {
+    for (const auto& outputs : joined_outputs_) probes_.emplace_back(circuit_, outputs);
+  }
   if (options.timeout) timeout_ = *options.timeout;
   SC_HAS_PROCESS(CircuitStage);
   SC_METHOD(resolve);
@@ -218,6 +221,7 @@ void CircuitStage::step() {
   set_clock(false);
   if (pins_.enable) pins_.enable.set(1);
   circuit_.evaluate();
+  for (ReadyProbe& probe : probes_) probe.look(cycle_);
   for (const auto& output : outputs_) {
     output->look(cycle_, steps_ >= options_.latency &&
                              steps_ - options_.latency < output->port().pass_tokens() + options_.skip);
@@ -330,6 +334,14 @@ const std::string& CircuitStage::breach() const {
     if (!output->breach().empty()) return output->breach();
   }
   return none;
+}
+
+std::vector<std::string> CircuitStage::notes() const {
+  std::vector<std::string> all;
+  for (const ReadyProbe& probe : probes_) {
+    if (!probe.note().empty()) all.push_back(probe.note());
+  }
+  return all;
 }
 
 const std::string& CircuitStage::framing_breach() const {

@@ -15,6 +15,7 @@
 #include "platform/cosim/circuit_pins.hpp"
 #include "platform/cosim/circuit_port.hpp"
 #include "platform/cosim/circuit_waves.hpp"
+#include "platform/cosim/ready_probe.hpp"
 #include "platform/cosim/stage_record.hpp"
 #include "platform/input/circuit_options.hpp"
 #include "platform/machine/circuit_end.hpp"
@@ -63,6 +64,8 @@ class CircuitStage final : public sc_core::sc_module, public Actor, public Circu
   const std::string& breach() const;
   /// The first start of frame or end of line, beside an output, that is not in its place; empty: none.
   const std::string& framing_breach() const;
+  /// What is no breach and yet worth a line.
+  std::vector<std::string> notes() const;
   std::uint64_t cycles() const { return clocked_; }  ///< in which it was clocked
 
   /// Before the simulation: keeps what the pins do in so many cycles before and behind the first difference.
@@ -102,13 +105,14 @@ class CircuitStage final : public sc_core::sc_module, public Actor, public Circu
   std::vector<std::unique_ptr<CircuitOutput>> outputs_;
   std::vector<std::vector<CircuitInput*>> joined_inputs_;  // all inputs, those that pass together in a group
   std::vector<std::vector<CircuitOutput*>> joined_outputs_;
-  std::uint64_t steps_ = 0;    // of a circuit without valid at its outputs, in this pass
-  std::uint64_t of_pass_ = 0;  // of these, one pass over the image or a tile
-  bool needs_all_ = false;     // an output has no valid: there is a step only with a token at each input
-  Cycles cycle_{0};            // the next one
-  Cycles moved_{0};            // the last one in which a token passed,
-  Cycles idle_{0};             // from which on the clock runs again after a rest,
-  Cycles due_{0};              // and in which a token was offered first
+  std::vector<ReadyProbe> probes_;  // of each of these, where sides are stalled
+  std::uint64_t steps_ = 0;         // of a circuit without valid at its outputs, in this pass
+  std::uint64_t of_pass_ = 0;       // of these, one pass over the image or a tile
+  bool needs_all_ = false;          // an output has no valid: there is a step only with a token at each input
+  Cycles cycle_{0};                 // the next one
+  Cycles moved_{0};                 // the last one in which a token passed,
+  Cycles idle_{0};                  // from which on the clock runs again after a rest,
+  Cycles due_{0};                   // and in which a token was offered first
   bool rests_ = false;
   std::uint64_t clocked_ = 0;
   sc_core::sc_time known_until_;  // every date before this is known

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
 #include <ostream>
 #include <string>
 
@@ -160,8 +161,57 @@ INSTANTIATE_TEST_SUITE_P(
             "offer token 0 of frame 0\n"},
         Breach{"NoRoom", "in_ready = 1;\n static bool begun = false;\n out_valid = begun |= in_valid != 0;\n",
                "--circuit-stall 990 --circuit-timeout 20 ", "at smoothed there is no room for token "},
+        Breach{
+            "ValidWaitsForReady",
+            "in_ready = out_ready, out_valid = in_valid && out_ready, out_data = in_data;\n",
+            "--circuit-stall 300 ",
+            "note                smoothed: out_valid waits for out_ready, and is 0 or 1 as it is, in cycle "},
         Breach{"Bound", kThrough, "--circuit-stall 500 --circuit-bound 5 ",
                "                    more than the bound of 5 cycles\n"}),
+    [](const auto& each) { return std::string(each.param.name); });
+
+struct Waiting {
+  const char* name;
+  const char* valid;
+  const char* handshake;  // up to the cycle
+};
+
+void PrintTo(const Waiting& waiting, std::ostream* out) { *out << waiting.name; }
+
+class CircuitValid : public ::testing::TestWithParam<Waiting> {};
+
+// What is not taken in the cycle in which it comes waits in a register.
+TEST_P(CircuitValid, OfAnAxiStreamWaitsForNothing) {
+  const Program program;
+  make_cpp_circuit(program, "c",
+                   "IN(clk, 1) IN(in_valid, 1) IN(in_data, 12) OUT(in_ready, 1) OUT(m_axis_tvalid, 1) "
+                   "OUT(m_axis_tdata, 12) IN(m_axis_tready, 1)",
+                   std::string("static bool full = false, was_ready = false;\n"
+                               "if (rises && m_axis_tvalid && m_axis_tready) full = false;\n"
+                               "if (rises && in_valid && in_ready) full = true, m_axis_tdata = in_data;\n"
+                               "in_ready = !full;\n") +
+                       GetParam().valid);
+  for (const char* const stall : {"", "--circuit-stall 300"}) {
+    const Outcome outcome = program(std::string(kMachine) + "--json " + kPlace + stall);
+    EXPECT_EQ(outcome.code, 1) << outcome.err;
+    const nlohmann::json circuit = nlohmann::json::parse(outcome.out).at("circuits").at(0);
+    const std::string told = circuit.value("handshake", "");
+    EXPECT_EQ(told.substr(0, told.find(", in cycle ")), *stall == '\0' ? "" : GetParam().handshake);
+    EXPECT_EQ(circuit.at("streams").at(0).at("got_tokens"), 512);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, CircuitValid,
+    ::testing::Values(Waiting{"Not", "m_axis_tvalid = full;", ""},
+                      Waiting{"Does", "m_axis_tvalid = full && m_axis_tready;",
+                              "smoothed: m_axis_tvalid waits for m_axis_tready, and is 0 or 1 as it is"},
+                      // By a register, it is not noticed.
+                      Waiting{"Late",
+                              "if (rises) was_ready = m_axis_tready;\n static bool begun;\n"
+                              "if (!full) begun = false;\n if (full && was_ready) begun = true;\n"
+                              "m_axis_tvalid = begun;",
+                              ""}),
     [](const auto& each) { return std::string(each.param.name); });
 
 }  // namespace circuit_messages_test
