@@ -339,6 +339,23 @@ class Finder {
 
 }  // namespace
 
+std::vector<std::string> half_handshakes(const CircuitPins& pins) {
+  std::vector<std::string> notes;
+  const auto compare = [&](const PortPins& with, const PortPins& without, const char* role,
+                           PinBits PortPins::*of) {
+    if (with.is_input != without.is_input || !(with.*of) || without.*of) return;
+    notes.push_back(fmt::format("{0} has no {1}, {2} has {3}: --circuit-pins {0}.{1}={3}, if it is of both",
+                                without.port, role, with.port, (with.*of).name()));
+  };
+  for (const PortPins& with : pins.ports) {
+    for (const PortPins& without : pins.ports) {
+      compare(with, without, "valid", &PortPins::valid);
+      compare(with, without, "ready", &PortPins::ready);
+    }
+  }
+  return notes;
+}
+
 CircuitPins find_pins(const Circuit& circuit, const VectorManifest& stage, const CircuitOptions& options) {
   CircuitPins pins = Finder(circuit, stage, options).find(options);
   for (const PortPins& port : pins.ports) {

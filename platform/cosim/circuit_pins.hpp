@@ -49,6 +49,10 @@ struct CircuitPins {
   std::vector<PortPins> ports;  ///< as the manifest's streams
 };
 
+/// Where some ports of a direction have valid (ready) and others none: what the user may have meant to be one
+/// for all, a line each.
+std::vector<std::string> half_handshakes(const CircuitPins& pins);
+
 /// Finds them for the ports of a stage, and sets the constants. Throws UserError when a port has no pin, when
 /// a pin has another width than the tokens, does not hold what is counted on it, runs the other way, or is an
 /// input that nobody drives.

@@ -214,8 +214,11 @@ bool CircuitOutput::put(Cycles cycle, bool stands, std::uint64_t frames) {
 }
 
 std::string CircuitOutput::wait() const {
+  const std::string what = port_.place(tokens_);
+  if (valid_ && ready_)
+    return fmt::format("at {} the circuit offers {}, and there is no edge", port_.stream.name, what);
   return fmt::format("at {} {} {}", port_.stream.name,
-                     valid_ ? "there is no room for" : "the circuit does not offer", port_.place(tokens_));
+                     valid_ ? "there is no room for" : "the circuit does not offer", what);
 }
 
 }  // namespace parallax

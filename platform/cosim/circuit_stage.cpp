@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "platform/cosim/full_fifos.hpp"
+
 namespace parallax {
 namespace {
 
@@ -43,6 +45,7 @@ CircuitStage::CircuitStage(const sc_core::sc_module_name& name, Circuit& circuit
       circuit_(circuit),
       pins_(pins),
       options_(options),
+      dataflow_(context.dataflow),
       clock_(context.clock),
       stop_(std::move(stop)),
       after_edge_(after_edge(order)) {
@@ -194,12 +197,20 @@ void CircuitStage::wait_for_dates() {
 // Whether the circuit's clock may have an edge: it stands where something cannot wait.
 bool CircuitStage::can_run() const {
   for (const auto& input : inputs_) {
-    if ((needs_all_ || !input->port().pins.valid) && !input->offered()) return false;
+    if (lacks_token(*input)) return false;
   }
   for (const auto& output : outputs_) {
-    if (!output->port().pins.ready && output->valid() && !output->ready()) return false;
+    if (lacks_room(*output)) return false;
   }
   return true;
+}
+
+bool CircuitStage::lacks_token(const CircuitInput& input) const {
+  return (needs_all_ || !input.port().pins.valid) && !input.offered();
+}
+
+bool CircuitStage::lacks_room(const CircuitOutput& output) {
+  return !output.port().pins.ready && output.valid() && !output.ready();
 }
 
 void CircuitStage::step() {
@@ -319,10 +330,30 @@ bool CircuitStage::owes() const {
                      [frames](const auto& output) { return output->owes(frames); });
 }
 
+// Why there is no edge, of ports that cannot wait; empty: there are edges.
+std::string CircuitStage::what_stops_clock() const {
+  for (const auto& input : inputs_) {
+    if (!lacks_token(*input)) continue;
+    const auto output = std::find_if(outputs_.begin(), outputs_.end(),
+                                     [](const auto& each) { return !each->port().pins.valid; });
+    return input->port().pins.valid
+               ? fmt::format("{}, which has no valid, needs a token at {} with each edge",
+                             (*output)->port().pins.port, input->port().pins.port)
+               : fmt::format("{} has no token, and no valid to say so", input->port().pins.port);
+  }
+  for (const auto& output : outputs_) {
+    if (lacks_room(*output))
+      return fmt::format("{} has no room, and no ready to say so", output->port().pins.port);
+  }
+  return {};
+}
+
 // What each port waits for.
 std::string CircuitStage::waits() const {
   std::string text;
   const auto say = [&text](const std::string& what) { text += (text.empty() ? "" : "; ") + what; };
+  if (const std::string full = full_fifos(dataflow_); !full.empty()) say(full);
+  if (const std::string why = what_stops_clock(); !why.empty()) say("its clock stands: " + why);
   for (const auto& input : inputs_) say(input->wait());
   for (const auto& output : outputs_) say(output->wait());
   return text;
@@ -337,7 +368,7 @@ const std::string& CircuitStage::breach() const {
 }
 
 std::vector<std::string> CircuitStage::notes() const {
-  std::vector<std::string> all;
+  std::vector<std::string> all = half_handshakes(pins_);
   for (const ReadyProbe& probe : probes_) {
     if (!probe.note().empty()) all.push_back(probe.note());
   }

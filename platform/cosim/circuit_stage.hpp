@@ -83,17 +83,21 @@ class CircuitStage final : public sc_core::sc_module, public Actor, public Circu
   void wait_for_dates();
   void step();
   bool can_run() const;
+  bool lacks_token(const CircuitInput& input) const;
+  static bool lacks_room(const CircuitOutput& output);
   void edge();
   void set_clock(bool high);
   void look_for_first();
   void give_up(const std::string& why);
   std::string waits() const;
+  std::string what_stops_clock() const;
   std::uint64_t begun() const;
   bool owes() const;
 
   Circuit& circuit_;
   const CircuitPins& pins_;
   const CircuitOptions& options_;
+  const Dataflow& dataflow_;
   const ClockDomain& clock_;
   const std::function<void()> stop_;
   const sc_core::sc_time after_edge_;  // where the kernel's time has come this far, the edge's turn is here

@@ -170,6 +170,68 @@ INSTANTIATE_TEST_SUITE_P(
                "                    more than the bound of 5 cycles\n"}),
     [](const auto& each) { return std::string(each.param.name); });
 
+// Holds back 2500 tokens, which those past it have to wait for.
+TEST(CircuitStandstill, NamesTheFullFifoBesideIt) {
+  const Program program;
+  make_cpp_circuit(program, "c", both() + "\n#include <deque>",
+                   "static std::deque<std::uint64_t> held;\n static int in = 0;\n"
+                   "if (rises && out_valid && out_ready) held.pop_front();\n"
+                   "if (rises && in_valid) held.push_back(in_data), ++in;\n"
+                   "in_ready = 1, out_valid = !held.empty() && (held.size() > 2500 || in == 64 * 48);\n"
+                   "out_data = held.empty() ? 0 : held.front();");
+  const std::string larger =
+      "run --size 64x48 --no-verdict --timing-frames 1 --circuit noise_reduction=c.so --circuit-timeout "
+      "5000 ";
+  const Outcome stands = program(larger + "-s streams.left_output.depth=2400");
+  EXPECT_EQ(stands.code, 1) << stands.err;
+  EXPECT_NE(
+      stands.err.find(": left_output is full (streams.left_output.depth = 2400) and rectification waits for "
+                      "room in it; interpolated has no token ("),
+      std::string::npos)
+      << stands.err;
+  const Outcome deeper = program(larger + "-s streams.left_output.depth=3072");
+  EXPECT_EQ(deeper.code, 1) << "it reduces no noise: " << deeper.err;
+  EXPECT_EQ(deeper.out.find("given up"), std::string::npos) << deeper.out;
+}
+
+// Of two ports, one has valid by its name.
+TEST(CircuitStandstill, TellsOfHalfAHandshake) {
+  const Program program;
+  const std::string pins = "IN(clk, 1) IN(in_left, 8) IN(in_right, 8) OUT(out_left, 2) OUT(out_right, 2) ";
+  const auto told = [&](const std::string& valid, const std::string& body, const std::string& options = "") {
+    make_cpp_circuit(program, "c", pins + valid, body);
+    const Outcome outcome = program(
+        "run --size 32x16 --timing-frames 1 --no-verdict -s census.window_width=3 -s census.window_height=1 "
+        "--circuit census=c.so --circuit-timeout 2000 " +
+        options);
+    EXPECT_EQ(outcome.code, 1) << outcome.err;
+    return outcome.out.substr(std::min(outcome.out.find("circuit   "), outcome.out.size()));
+  };
+  const auto expect_in = [](const std::string& text, const std::string& part) {
+    EXPECT_NE(text.find(part), std::string::npos) << text;
+  };
+  const std::string input =
+      told("IN(in_left_valid, 1) OUT(out_valid, 1)", "if (rises) out_valid = in_left_valid;");
+  expect_in(
+      input,
+      ": its clock stands: in_right has no token, and no valid to say so; left_rectified has no token (");
+  expect_in(input, "; at left_codes the circuit offers token 511 of frame 0, and there is no edge; ");
+  expect_in(input,
+            "note                in_right has no valid, in_left has in_left_valid: --circuit-pins "
+            "in_right.valid=in_left_valid, if it is of both\n");
+  const std::string output =
+      told("IN(in_valid, 1) OUT(out_left_valid, 1)", "if (rises) out_left_valid = in_valid;");
+  expect_in(output,
+            ": its clock stands: out_right, which has no valid, needs a token at in_left with each edge; ");
+  expect_in(output,
+            "note                out_right has no valid, out_left has out_left_valid: --circuit-pins "
+            "out_right.valid=out_left_valid, if it is of both\n");
+  const std::string full =
+      told("IN(in_valid, 1) OUT(out_valid, 1)", "static bool any;\n any |= in_valid;\n out_valid = any;",
+           "--circuit-timeout 500 --circuit-stall 990");
+  expect_in(full, ": its clock stands: out_left has no room, and no ready to say so; ");
+}
+
 struct Waiting {
   const char* name;
   const char* valid;

@@ -247,7 +247,9 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"FAULT_BORDER", "pattern             only the rim differs, 2 px wide\n"},
         Fault{"FAULT_CHANGED",
               "handshake           left_codes: the data change before token 639 was taken, in "},
-        Fault{"FAULT_HANGS", "since cycle 111025: left_rectified has no token (token 1200 of frame 0"},
+        Fault{"FAULT_HANGS",
+              "since cycle 111025: left_texture is full (streams.left_texture.depth = 327) and rectification "
+              "waits for room in it; left_rectified has no token (token 1200 of frame 0"},
         Fault{"FAULT_LOST", "pattern             token 640 (frame 0, row 10, column 0) is lost"},
         Fault{
             "FAULT_WITHDRAWN",
