@@ -337,6 +337,18 @@ class Finder {
   Names roles_;
 };
 
+// Where valid says when a result is there, nothing else can.
+void check_latency(const Circuit& circuit, const CircuitPins& pins, const CircuitOptions& options) {
+  if (options.latency == 0) return;
+  for (const PortPins& port : pins.ports) {
+    if (!port.is_input && !port.valid) return;
+  }
+  throw UserError(fmt::format(
+      "--circuit-latency {}: circuit {} says itself when a result is there, by {}; leave it out, or "
+      "--circuit-pins {}.valid= has it count edges; --circuit-flush sends tokens behind a frame",
+      options.latency, circuit.name(), pins.ports.back().valid.name(), pins.ports.back().port));
+}
+
 }  // namespace
 
 std::vector<std::string> half_handshakes(const CircuitPins& pins) {
@@ -366,6 +378,7 @@ CircuitPins find_pins(const Circuit& circuit, const VectorManifest& stage, const
                       circuit.name(), port.port));
     }
   }
+  check_latency(circuit, pins, options);
   return pins;
 }
 

@@ -27,7 +27,7 @@ std::uint64_t CircuitPort::column(std::uint64_t token) const {
 CircuitInput::CircuitInput(const CircuitPort& port, std::uint64_t seed)
     : port_(port),
       pass_tokens_(port.pass_tokens()),
-      pass_flush_(port.options.flush.value_or(port.options.latency)),
+      pass_flush_(port.pass_flush()),
       stalls_(port.options.stall, seed) {}
 
 bool CircuitInput::offer(Cycles cycle) {
@@ -179,6 +179,11 @@ bool CircuitOutput::put(Cycles cycle, bool stands, std::uint64_t frames) {
     return false;
   }
   held_ = false;
+  if (frames > 0 && !owes(frames) && flushed_ < port_.pass_flush()) {
+    ++flushed_;
+    drop();
+    return true;
+  }
   if (skip_ > 0) {
     --skip_;
     return true;
@@ -209,6 +214,7 @@ bool CircuitOutput::put(Cycles cycle, bool stands, std::uint64_t frames) {
     end->stream().mark_written(cycle, blocked_);
   }
   blocked_ = Cycles(0);
+  flushed_ = 0;
   if (++tokens_ % pass_tokens_ == 0) skip_ = port_.options.skip;
   return true;
 }

@@ -26,6 +26,8 @@ struct CircuitPort {
   const CircuitOptions& options;
 
   std::uint64_t pass_tokens() const { return stage.pass_tokens(stream); }
+  /// Zeros that an input gets behind each pass.
+  std::uint64_t pass_flush() const { return options.flush.value_or(options.latency); }
   /// Whether the token is of a frame with images.
   bool has_value(std::uint64_t token) const {
     return token / stream.frame_tokens < static_cast<std::uint64_t>(stage.frames);
@@ -115,6 +117,10 @@ class CircuitOutput {
   bool differs() const { return differs_; }
   /// Whether a token left later than the bound allows, if there is one.
   bool late() const { return late_; }
+  /// A result of a circuit without valid that is behind the last one of a frame.
+  void drop() { ++dropped_; }
+  /// Results behind the last one of a frame that the zeros behind it have made.
+  std::uint64_t dropped() const { return dropped_; }
   const Dump& dump() const { return dump_; }
   std::uint64_t tokens() const { return tokens_; }  ///< that were written
   std::string wait() const;
@@ -127,7 +133,9 @@ class CircuitOutput {
   std::vector<CircuitEnd*> ends_;
   Stalls stalls_;
   Dump dump_;
-  std::uint64_t skip_;        // tokens that count for nothing before the next one of a frame
+  std::uint64_t skip_;         // tokens that count for nothing before the next one of a frame
+  std::uint64_t flushed_ = 0;  // behind the last one of a frame, which may be as many as zeros were sent
+  std::uint64_t dropped_ = 0;
   std::uint64_t tokens_ = 0;  // that were written
   bool ready_ = false;
   bool valid_ = false;

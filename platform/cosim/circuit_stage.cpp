@@ -7,8 +7,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "platform/cosim/full_fifos.hpp"
-
 namespace parallax {
 namespace {
 
@@ -58,7 +56,7 @@ CircuitStage::CircuitStage(const sc_core::sc_module_name& name, Circuit& circuit
     ++seed;
     if (stream.is_input) {
       inputs_.push_back(std::make_unique<CircuitInput>(port, seed));
-      of_pass_ = std::max(of_pass_, port.pass_tokens() + options.flush.value_or(options.latency));
+      of_pass_ = std::max(of_pass_, port.pass_tokens() + port.pass_flush());
     } else {
       outputs_.push_back(std::make_unique<CircuitOutput>(port, seed));
       needs_all_ |= !port.pins.valid;
@@ -209,6 +207,11 @@ bool CircuitStage::lacks_token(const CircuitInput& input) const {
   return (needs_all_ || !input.port().pins.valid) && !input.offered();
 }
 
+// Whether what is at an output without valid lies behind the last result of a pass.
+bool CircuitStage::is_behind(const CircuitOutput& output) const {
+  return steps_ >= options_.latency + output.port().pass_tokens() + options_.skip;
+}
+
 bool CircuitStage::lacks_room(const CircuitOutput& output) {
   return !output.port().pins.ready && output.valid() && !output.ready();
 }
@@ -234,8 +237,7 @@ void CircuitStage::step() {
   circuit_.evaluate();
   for (ReadyProbe& probe : probes_) probe.look(cycle_);
   for (const auto& output : outputs_) {
-    output->look(cycle_, steps_ >= options_.latency &&
-                             steps_ - options_.latency < output->port().pass_tokens() + options_.skip);
+    output->look(cycle_, steps_ >= options_.latency && !is_behind(*output));
   }
   const bool stands = !can_run();
   bool moved = false;
@@ -244,6 +246,9 @@ void CircuitStage::step() {
   for (const auto& output : outputs_) moved |= output->put(cycle_, stands, frames);
   for (const auto& input : inputs_) moved |= input->take(cycle_, stands);
   if (moved) moved_ = cycle_;
+  for (const auto& output : outputs_) {
+    if (!stands && !output->port().pins.valid && is_behind(*output)) output->drop();
+  }
   if (!stands && ++steps_ == of_pass_) steps_ = 0;
   if (stands && pins_.enable) {
     pins_.enable.set(0);
@@ -328,59 +333,6 @@ bool CircuitStage::owes() const {
   return std::any_of(inputs_.begin(), inputs_.end(), [](const auto& input) { return input->offered(); }) ||
          std::any_of(outputs_.begin(), outputs_.end(),
                      [frames](const auto& output) { return output->owes(frames); });
-}
-
-// Why there is no edge, of ports that cannot wait; empty: there are edges.
-std::string CircuitStage::what_stops_clock() const {
-  for (const auto& input : inputs_) {
-    if (!lacks_token(*input)) continue;
-    const auto output = std::find_if(outputs_.begin(), outputs_.end(),
-                                     [](const auto& each) { return !each->port().pins.valid; });
-    return input->port().pins.valid
-               ? fmt::format("{}, which has no valid, needs a token at {} with each edge",
-                             (*output)->port().pins.port, input->port().pins.port)
-               : fmt::format("{} has no token, and no valid to say so", input->port().pins.port);
-  }
-  for (const auto& output : outputs_) {
-    if (lacks_room(*output))
-      return fmt::format("{} has no room, and no ready to say so", output->port().pins.port);
-  }
-  return {};
-}
-
-// What each port waits for.
-std::string CircuitStage::waits() const {
-  std::string text;
-  const auto say = [&text](const std::string& what) { text += (text.empty() ? "" : "; ") + what; };
-  if (const std::string full = full_fifos(dataflow_); !full.empty()) say(full);
-  if (const std::string why = what_stops_clock(); !why.empty()) say("its clock stands: " + why);
-  for (const auto& input : inputs_) say(input->wait());
-  for (const auto& output : outputs_) say(output->wait());
-  return text;
-}
-
-const std::string& CircuitStage::breach() const {
-  static const std::string none;
-  for (const auto& output : outputs_) {
-    if (!output->breach().empty()) return output->breach();
-  }
-  return none;
-}
-
-std::vector<std::string> CircuitStage::notes() const {
-  std::vector<std::string> all = half_handshakes(pins_);
-  for (const ReadyProbe& probe : probes_) {
-    if (!probe.note().empty()) all.push_back(probe.note());
-  }
-  return all;
-}
-
-const std::string& CircuitStage::framing_breach() const {
-  static const std::string none;
-  for (const auto& output : outputs_) {
-    if (!output->framing().breach().empty()) return output->framing().breach();
-  }
-  return none;
 }
 
 }  // namespace parallax

@@ -84,6 +84,7 @@ class CircuitStage final : public sc_core::sc_module, public Actor, public Circu
   void step();
   bool can_run() const;
   bool lacks_token(const CircuitInput& input) const;
+  bool is_behind(const CircuitOutput& output) const;
   static bool lacks_room(const CircuitOutput& output);
   void edge();
   void set_clock(bool high);

@@ -78,6 +78,12 @@ INSTANTIATE_TEST_SUITE_P(
         Misfit{"UnknownRole", both(), "--circuit-pins in_disparity.date=in_data",
                "--circuit-pins in_disparity.date=in_data: noise_reduction has no such role; the nearest is "
                "in_disparity.data"},
+        Misfit{"LatencyWithValid", both(), "--circuit-latency 3",
+               "--circuit-latency 3: circuit circuit says itself when a result is there, by out_valid; leave "
+               "it out, "
+               "or --circuit-pins out_disparity.valid= has it count edges; --circuit-flush sends tokens "
+               "behind a "
+               "frame"},
         Misfit{"SetNothing", both("IN(mode, 3)"), "--circuit-set mode",
                "--circuit-set: 'mode' is not PIN=VALUE, decimal or 0x, as threshold=12"},
         Misfit{"SetNoNumber", both("IN(mode, 3)"), "--circuit-set mode=0xg",

@@ -76,6 +76,36 @@ TEST_F(CircuitPins, PortsThatShareReadyPassTogether) {
   expect_equal("--circuit-stall 400");
 }
 
+// More zeros behind each frame than it needs push out results that belong to none.
+TEST_F(CircuitPins, ResultsBehindAFrameAreCounted) {
+  make_census(false);
+  const std::string frames = "--timing-frames 3 --circuit-flush ";
+  const auto told = [&](const std::string& options) {
+    const Outcome outcome = program(kCensus + std::string(kBuses) + options);
+    EXPECT_EQ(outcome.code, 0) << outcome.err << outcome.out;
+    EXPECT_NE(outcome.out.find("left_codes: equal, 512 tokens"), std::string::npos) << outcome.out;
+    const std::size_t note = outcome.out.find("note  ");
+    return note == std::string::npos ? ""
+                                     : outcome.out.substr(note, outcome.out.find("left_codes: equal") - note);
+  };
+  const auto note = [](const std::string& number, const std::string& zeros) {
+    const auto line = [&](const std::string& stream) {
+      return "note                " + stream + ": " + number + " behind the last one of a frame, of " +
+             zeros + " tokens of zeros behind each; --circuit-flush says how many\n";
+    };
+    return line("left_codes") + line("right_codes");
+  };
+  EXPECT_EQ(told(frames + "1"), "");
+  EXPECT_EQ(told("--circuit-flush 2"), note("1 result", "2"));
+  EXPECT_EQ(told(frames + "5"), note("12 results", "5"));
+  EXPECT_EQ(told(frames + "5 --circuit-stall 300"), note("12 results", "5"));
+  // Without valid, results are counted from the latency on.
+  const std::string no_valid =
+      "--circuit-pins out_left.valid= --circuit-pins out_right.valid= --circuit-skip 0 ";
+  EXPECT_EQ(told(no_valid + "--circuit-latency 2 --circuit-flush 2"), "");
+  EXPECT_EQ(told(no_valid + "--circuit-latency 2 --circuit-flush 4"), note("2 results", "4"));
+}
+
 // Of 12 bits in a stream of whole bytes the others are nobody's.
 TEST_F(CircuitPins, AnAxiStreamIsWholeBytes) {
   make_cpp_circuit(program, "circuit",
