@@ -176,7 +176,7 @@ class Run {
       machine.dataflow().bring_up_to_date();
       circuits_->conclude();
       if (!circuits_->fault().empty())
-        context_.err << fmt::format("parallax: error: the circuit was given up: {}\n", circuits_->fault());
+        context_.err << fmt::format("parallax: error: {}\n", circuits_->fault());
     }
     if (!machine.finished() && sc_core::sc_get_status() == sc_core::SC_STOPPED) {  // by a circuit
       if (options_.json) {

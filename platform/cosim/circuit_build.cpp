@@ -128,10 +128,12 @@ std::vector<DeclaredPin> pins_of(const std::string& header) {
   return pins;
 }
 
-// The one unit that is compiled: the circuit's C++, Verilator's library, and the interface.
-std::string unit(const fs::path& folder, const std::string& module, const std::vector<DeclaredPin>& pins) {
-  std::string text =
-      fmt::format("#include \"V{0}.h\"\n#define PARALLAX_TOP V{0}\n#define PARALLAX_NAME \"{0}\"\n", module);
+// The one unit that is compiled: the circuit's C++, Verilator's library, and the interface. `prefix`: of
+// Verilator's files and class, behind the V.
+std::string unit(const fs::path& folder, const std::string& prefix, const std::string& top,
+                 const std::vector<DeclaredPin>& pins) {
+  std::string text = fmt::format(
+      "#include \"V{0}.h\"\n#define PARALLAX_TOP V{0}\n#define PARALLAX_NAME \"{1}\"\n", prefix, top);
   text += fmt::format("#define PARALLAX_PIN_COUNT {}\n#define PARALLAX_PINS(TOP) \\\n", pins.size());
   for (const DeclaredPin& pin : pins) {
     text += fmt::format("  {{\"{0}\", {1}, {2}, &TOP.{0}}}, \\\n", pin.name, pin.is_input ? 1 : 0, pin.width);
@@ -140,7 +142,7 @@ std::string unit(const fs::path& folder, const std::string& module, const std::v
   std::vector<std::string> files;
   for (const auto& entry : fs::directory_iterator(folder)) {
     const std::string name = entry.path().filename().string();
-    if (entry.path().extension() == ".cpp" && name.rfind("V" + module, 0) == 0) files.push_back(name);
+    if (entry.path().extension() == ".cpp" && name.rfind("V" + prefix, 0) == 0) files.push_back(name);
   }
   std::sort(files.begin(), files.end());
   for (const std::string& file : files) text += fmt::format("#include \"{}\"\n", file);
@@ -190,8 +192,8 @@ void check_writable(const fs::path& library) {
   if (is_new) fs::remove(library, ignored);
 }
 
-// Verilator names its files after the top module: V, its name, and what they are.
-std::string top_in(const fs::path& folder) {
+// Verilator names its files V, --top-module or the first source's name, and what they are.
+std::string prefix_in(const fs::path& folder) {
   constexpr std::string_view kRoot = "___024root.h";
   for (const auto& entry : fs::directory_iterator(folder)) {
     const std::string name = entry.path().filename().string();
@@ -201,10 +203,35 @@ std::string top_in(const fs::path& folder) {
   throw UserError("Verilator has written no top module");
 }
 
+// Only Verilator's description of the circuit says which module is the top one: its first cell. Where it
+// writes none, the prefix has to do.
+std::string top_name(Words words, const fs::path& folder, const std::string& prefix) {
+  const fs::path file = folder / "circuit.xml";
+  *std::find(words.begin(), words.end(), "--cc") = "--xml-only";
+  words.insert(words.end(), {"--xml-output", file.string()});
+  try {
+    run_tool(words, folder, "verilator", "%Error");
+  } catch (const UserError&) {
+    return prefix;
+  }
+  std::ifstream lines(file);
+  for (std::string line; std::getline(lines, line);) {
+    static const std::regex cell("<cell [^>]*\\bname=\"(\\w+)\"");
+    std::smatch match;
+    if (line.find("<cell ") != std::string::npos && std::regex_search(line, match, cell)) return match[1];
+  }
+  return prefix;
+}
+
+void check_there(const fs::path& file) {
+  if (!fs::is_regular_file(file)) throw UserError(fmt::format("{} is no file", excerpt(file.string(), 300)));
+}
+
 }  // namespace
 
 void build_circuit(const std::vector<fs::path>& sources, const CircuitOptions& options,
                    const fs::path& library) {
+  std::for_each(sources.begin(), sources.end(), check_there);
   const fs::path interface = interface_folder();
   check_writable(library);
   BuildFolder folder;
@@ -231,12 +258,12 @@ void build_circuit(const std::vector<fs::path>& sources, const CircuitOptions& o
   std::string root =
       run_tool({"verilator", "--getenv", "VERILATOR_ROOT"}, folder.path(), "verilator", "%Error");
   root.erase(root.find_last_not_of(" \n") + 1);
-  const std::string top = top_in(folder.path());
-  const std::vector<DeclaredPin> pins = pins_of(content(folder.path() / ("V" + top + ".h")));
+  const std::string prefix = prefix_in(folder.path());
+  const std::vector<DeclaredPin> pins = pins_of(content(folder.path() / ("V" + prefix + ".h")));
   if (pins.empty())
     throw UserError(fmt::format("{}: the circuit's top module has no pins", sources[0].string()));
   const fs::path source = folder.path() / "circuit.cpp";
-  std::ofstream(source) << unit(folder.path(), top, pins);
+  std::ofstream(source) << unit(folder.path(), prefix, top_name(words, folder.path(), prefix), pins);
   const fs::path made = folder.path() / "circuit.so";
   run_tool({"g++", "-std=c++17", "-shared", "-fPIC", "-O2", "-fvisibility=hidden", "-w", "-DVL_USER_FINISH",
             "-DVL_USER_STOP", "-DVL_USER_FATAL", "-I" + folder.path().string(), "-I" + interface.string(),

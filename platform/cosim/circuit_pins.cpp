@@ -8,7 +8,7 @@
 #include <charconv>
 #include <map>
 
-#include "platform/config/nearest_name.hpp"
+#include "platform/cosim/nearest_or_all.hpp"
 #include "platform/cosim/pin_lookup.hpp"
 #include "platform/cosim/signal_bits.hpp"
 #include "tlm/error.hpp"
@@ -324,8 +324,8 @@ class Finder {
   void check_names() const {
     for (const auto& [role, name] : named_) {
       if (std::find(roles_.begin(), roles_.end(), role) == roles_.end()) {
-        throw UserError(fmt::format("--circuit-pins {}={}: {} has no such role; the nearest is {}",
-                                    excerpt(role), excerpt(name), stage_.stage, nearest_name(role, roles_)));
+        throw UserError(fmt::format("--circuit-pins {}={}: {} has no such role; {}", excerpt(role),
+                                    excerpt(name), stage_.stage, nearest_or_all(role, roles_)));
       }
     }
   }

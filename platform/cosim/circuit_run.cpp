@@ -200,8 +200,11 @@ CircuitOutcome CircuitRun::outcome(const Placed& placed) {
 void CircuitRun::conclude() {
   if (shadow_) return;
   for (std::size_t i = 0; i < in_place_; ++i) outcomes_.push_back(outcome(circuits_[i]));
+  const auto given_up = std::find_if(outcomes_.begin(), outcomes_.end(),
+                                     [](const CircuitOutcome& outcome) { return !outcome.fault.empty(); });
+  const std::size_t at = given_up == outcomes_.end() ? 0 : given_up - outcomes_.begin();
+  const std::string why = fmt::format("the circuit of {} before it was given up", circuits_[at].stage);
   for (std::size_t i = in_place_; i < circuits_.size(); ++i) {
-    const std::string why = "a circuit before it was given up";
     CircuitOutcome left_out;
     left_out.text =
         fmt::format("circuit             {} is left out: {}\n", circuits_[i].circuit->name(), why);
@@ -219,8 +222,11 @@ bool CircuitRun::as_model() const {
 }
 
 std::string CircuitRun::fault() const {
-  for (const CircuitOutcome& outcome : outcomes_) {
-    if (!outcome.fault.empty()) return outcome.fault;
+  for (std::size_t i = 0; i < outcomes_.size(); ++i) {
+    const std::string& fault = outcomes_[i].fault;
+    if (fault.empty()) continue;
+    return fmt::format("circuit {} in the place of {} was given up: {}", circuits_[i].circuit->name(),
+                       circuits_[i].stage, fault);
   }
   return {};
 }

@@ -47,7 +47,7 @@ class CircuitRun {
   void conclude();
   /// Whether all did as the model does.
   bool as_model() const;
-  /// Why one was given up; empty: none was.
+  /// Which one was given up, and why; empty: none was.
   std::string fault() const;
   std::string text() const;
   nlohmann::ordered_json json() const;  ///< an array, upstream first

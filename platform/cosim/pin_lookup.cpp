@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "platform/config/nearest_name.hpp"
+#include "platform/cosim/nearest_or_all.hpp"
 #include "platform/cosim/signal_bits.hpp"
 #include "tlm/error.hpp"
 
@@ -28,8 +28,8 @@ PinBits PinLookup::named(const std::string& word, const std::string& option) con
   if (!bits) throw UserError(fmt::format("{}: a pin is PIN, PIN[BIT] or PIN[HIGH:LOW]", option));
   const parallax_pin* const found = pin(bits->name);
   if (found == nullptr) {
-    throw UserError(fmt::format("{}: circuit {} has no such pin; the nearest is {}", option, circuit_.name(),
-                                nearest_name(bits->name, names())));
+    throw UserError(fmt::format("{}: circuit {} has no such pin; {}", option, circuit_.name(),
+                                nearest_or_all(bits->name, names())));
   }
   if (!bits->range) return PinBits(*found);
   const auto [high, low] = *bits->range;

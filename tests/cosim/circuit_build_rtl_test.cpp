@@ -62,6 +62,22 @@ TEST_F(CircuitBuild, RefusesWhatIsNoCircuit) {
       "it");
 }
 
+// Not by the file, whose name Verilator takes.
+TEST_F(CircuitBuild, IsCalledByItsTopModule) {
+  ASSERT_EQ(
+      build("module part(input [11:0] a, output [11:0] b); assign b = a; endmodule\n"
+            "module pass #(parameter WIDTH = 8) (input clk, input [WIDTH - 1:0] in_disparity,\n"
+            "  output [WIDTH - 1:0] out_disparity);\n  part one(in_disparity, out_disparity);\nendmodule\n",
+            "--out c.so --circuit-parameter WIDTH=12")
+          .code,
+      0);
+  const Outcome outcome =
+      program("run --size 32x16 --timing-frames 1 --no-verdict --circuit noise_reduction=c.so");
+  EXPECT_EQ(outcome.code, 1) << "it reduces no noise: " << outcome.err;
+  EXPECT_NE(outcome.out.find("circuit             pass in the place of noise_reduction, "), std::string::npos)
+      << outcome.out;
+}
+
 TEST_F(CircuitBuild, SaysWhereItCannotWrite) {
   expect_refused(build(kModule, "--out none/c.so"), "cannot write none/c.so: No such file or directory");
   expect_refused(build(kModule, "--out ."), "cannot write .: Is a directory");

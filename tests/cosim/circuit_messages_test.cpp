@@ -75,6 +75,21 @@ INSTANTIATE_TEST_SUITE_P(
                "--circuit-pins: 'clock' is not ROLE=PIN, as in_left.data=pixel or clock=clk"},
         Misfit{"NoPin", both(), "--circuit-pins clock=klk",
                "--circuit-pins clock=klk: circuit circuit has no such pin; the nearest is clk"},
+        Misfit{"NoSuchPin", both(), "--circuit-pins in_disparity.valid=strobe",
+               "--circuit-pins in_disparity.valid=strobe: circuit circuit has no such pin; there are clk, "
+               "in_valid, "
+               "in_data, in_ready, out_valid, out_data, out_ready"},
+        Misfit{"NoPinOfARole", both(), "--circuit-pins in_disparity.valid=",
+               "circuit circuit: nothing drives the input in_valid of 1 bit; --circuit-pins ROLE=in_valid "
+               "says what "
+               "it is, --circuit-set in_valid=VALUE what it is to be"},
+        Misfit{"NoRoleOfThePort", both(), "--circuit-pins valid_in=",
+               "--circuit-pins valid_in=: noise_reduction has no such role; there are clock, reset, reset_n, "
+               "in_disparity.data, in_disparity.valid, in_disparity.ready, in_disparity.first, "
+               "in_disparity.last, "
+               "in_disparity.keep, in_disparity.row, in_disparity.column, in_disparity.group, "
+               "out_disparity.data, "
+               "out_disparity.valid, out_disparity.ready, out_disparity.first, out_disparity.last, enable"},
         Misfit{"UnknownRole", both(), "--circuit-pins in_disparity.date=in_data",
                "--circuit-pins in_disparity.date=in_data: noise_reduction has no such role; the nearest is "
                "in_disparity.data"},
@@ -104,6 +119,13 @@ TEST(CircuitLibrary, OfAnotherKindOrVersionIsRefused) {
                "static void evaluate(bool) {}\n");
   expect_refused(program(std::string(kMachine) + kPlace),
                  "c.so: a circuit of version 7, this program takes version 1; build it again");
+}
+
+TEST(CircuitLibrary, IsMadeOfFilesThatAreThere) {
+  const Program program;
+  expect_refused(program("circuit none.v --out c.so"), "none.v is no file");
+  expect_refused(program(std::string(kMachine) + "--circuit noise_reduction=none.v"),
+                 "--circuit: none.v is no file");
 }
 
 // Before anything is compiled.
@@ -198,6 +220,23 @@ TEST(CircuitStandstill, NamesTheFullFifoBesideIt) {
   const Outcome deeper = program(larger + "-s streams.left_output.depth=3072");
   EXPECT_EQ(deeper.code, 1) << "it reduces no noise: " << deeper.err;
   EXPECT_EQ(deeper.out.find("given up"), std::string::npos) << deeper.out;
+}
+
+TEST(CircuitStandstill, SaysWhichCircuit) {
+  const Program program;
+  make_cpp_circuit(program, "c", both(), "in_ready = out_ready, out_valid = in_valid, out_data = in_data;");
+  make_cpp_circuit(program, "stuck", both(), "");
+  const Outcome outcome = program(
+      "run --size 32x16 --no-verdict --timing-frames 1 --circuit-timeout 2000 "
+      "--circuit noise_reduction=c.so --circuit gap_interpolation=stuck.so");
+  EXPECT_EQ(outcome.code, 1) << outcome.out;
+  EXPECT_EQ(
+      outcome.err.find("parallax: error: circuit circuit in the place of gap_interpolation was given up: "),
+      0U)
+      << outcome.err;
+  EXPECT_NE(outcome.out.find("is left out: the circuit of gap_interpolation before it was given up\n"),
+            std::string::npos)
+      << outcome.out;
 }
 
 // Of two ports, one has valid by its name.

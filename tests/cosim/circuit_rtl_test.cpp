@@ -130,7 +130,8 @@ TEST(CircuitRun, BehindOneThatIsGivenUpTheNextIsLeftOut) {
   const Outcome outcome =
       program(kMachine + census(program, "FAULT_HANGS") + "--circuit noise_reduction=none.sv");
   EXPECT_EQ(outcome.code, 1);
-  EXPECT_EQ(count(outcome.out, "circuit             none is left out: a circuit before it was given up\n"),
+  EXPECT_EQ(count(outcome.out,
+                  "circuit             none is left out: the circuit of census before it was given up\n"),
             1U)
       << outcome.err << outcome.out;
 }

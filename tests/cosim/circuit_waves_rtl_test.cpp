@@ -73,7 +73,7 @@ TEST_F(CircuitWaves, AreThoseAroundTheFirstDifference) {
   const auto date_of = [&](std::int64_t cycle) { return cycle * (kSecond / common) / (clock_hz / common); };
 
   const Wave wave = read_wave((program / "out/circuit_census.vcd").string());
-  const std::vector<std::int64_t> rising = edges(wave, "census.clk");
+  const std::vector<std::int64_t> rising = edges(wave, "census_5x5.clk");
   ASSERT_EQ(rising.size(), 130U) << "64 cycles before, 64 behind, and the edges at both ends";
   const auto cycle = first.at("cycle").get<std::int64_t>();
   for (std::size_t i = 0; i < rising.size(); ++i)
@@ -84,10 +84,10 @@ TEST_F(CircuitWaves, AreThoseAroundTheFirstDifference) {
   std::size_t passed = 0;
   for (std::size_t i = 1; i < rising.size(); ++i) {
     const auto before = [&](const std::string& signal) { return wave.at(signal, rising[i] - 1); };
-    const bool passes = before("census.out_left_valid") == 1 && before("census.out_left_ready") == 1;
+    const bool passes = before("census_5x5.out_left_valid") == 1 && before("census_5x5.out_left_ready") == 1;
     const auto token = static_cast<std::size_t>(before("model.out_left_token"));
     EXPECT_EQ(before("model.out_left_expected"), model.at(token));
-    const bool differs = passes && before("census.out_left_data") != model.at(token);
+    const bool differs = passes && before("census_5x5.out_left_data") != model.at(token);
     EXPECT_EQ(before("model.out_left_differs"), differs ? 1 : 0) << token;
     if (differs && first_wrong < 0) {
       first_wrong = rising[i - 1];
@@ -105,12 +105,12 @@ TEST_F(CircuitWaves, AreThoseAroundTheFirstDifference) {
   EXPECT_EQ(happened[0].begin, date_of(cycle));
   EXPECT_EQ(happened[0].end, date_of(cycle + 1));
   for (const char* const signal :
-       {"census.out_left_data", "model.out_left_expected", "census.in_left_data"}) {
+       {"census_5x5.out_left_data", "model.out_left_expected", "census_5x5.in_left_data"}) {
     for (const Tracks::Slice& slice : tracks.slices.at(signal))
       EXPECT_TRUE(wave.is(signal, std::stoll(slice.name, nullptr, 16), slice.begin, slice.end)) << signal;
   }
-  for (const auto& [date, value] : tracks.counters.at("census.out_left_ready"))
-    EXPECT_EQ(wave.at("census.out_left_ready", date), static_cast<std::int64_t>(value)) << date;
+  for (const auto& [date, value] : tracks.counters.at("census_5x5.out_left_ready"))
+    EXPECT_EQ(wave.at("census_5x5.out_left_ready", date), static_cast<std::int64_t>(value)) << date;
 }
 
 TEST_F(CircuitWaves, OfOneThatHangsAreThoseInWhichItStopped) {
@@ -119,14 +119,14 @@ TEST_F(CircuitWaves, OfOneThatHangsAreThoseInWhichItStopped) {
   const auto given_up = told.at("given_up").get<std::string>();
   EXPECT_NE(given_up.find("since cycle 111025: "), std::string::npos) << given_up;
   const Wave wave = read_wave((program / "out/circuit_census.vcd").string());
-  const std::vector<std::int64_t> rising = edges(wave, "census.clk");
+  const std::vector<std::int64_t> rising = edges(wave, "census_5x5.clk");
   ASSERT_EQ(rising.size(), 12U) << "five cycles before the last token, five behind, and both ends";
   // The last thing that moves is a token at an input, which is said to be number 1199.
   const std::int64_t last = rising[6] - 1;
-  EXPECT_EQ(wave.at("census.in_left_valid", last), 1);
-  EXPECT_EQ(wave.at("census.in_left_ready", last), 1);
+  EXPECT_EQ(wave.at("census_5x5.in_left_valid", last), 1);
+  EXPECT_EQ(wave.at("census_5x5.in_left_ready", last), 1);
   for (std::size_t i = 7; i < rising.size(); ++i)
-    EXPECT_EQ(wave.at("census.in_left_valid", rising[i] - 1), 0) << i;
+    EXPECT_EQ(wave.at("census_5x5.in_left_valid", rising[i] - 1), 0) << i;
 }
 
 TEST_F(CircuitWaves, AndAnImageShowWhereItDiffers) {
