@@ -115,6 +115,9 @@ void add_circuit_options(CLI::App& command, std::vector<CircuitOptions>& circuit
       "Cycles without a token, while one is due, after which it is given up; 100000 if not given, or four "
       "for "
       "each token of a frame");
+  add_number(
+      "--circuit-seconds", [](CircuitOptions& of, std::uint64_t seconds) { of.seconds = seconds; }, kPositive,
+      "60", "Seconds that it may take to evaluate one clock edge, after which the run ends");
   needs_it(options.add<std::int64_t>(
       "--circuit-bound", "NUMBER", [](CircuitOptions& of, std::int64_t cycles) { of.bound = cycles; },
       "Most cycles by which a token may leave later than from the model's stage; more is a failure"));

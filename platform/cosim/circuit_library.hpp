@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -23,10 +24,20 @@ class Circuit {
 
   const char* name() const { return entry_->name; }  ///< of its top module, or of its file
   const std::vector<parallax_pin>& pins() const { return pins_; }
-  void evaluate() { entry_->evaluate(circuit_); }
+  void evaluate() {
+    count_call();
+    entry_->evaluate(circuit_);
+    count_call();
+  }
+  /// How often evaluate() was entered and left: odd within. For other threads, too.
+  std::uint64_t calls() const { return calls_.load(std::memory_order_relaxed); }
   bool finished() const { return entry_->finished(circuit_) != 0; }
 
  private:
+  // One thread alone counts.
+  void count_call() { calls_.store(calls() + 1, std::memory_order_relaxed); }
+
+  std::atomic<std::uint64_t> calls_{0};
   void* library_ = nullptr;
   const parallax_circuit* entry_ = nullptr;
   void* circuit_ = nullptr;

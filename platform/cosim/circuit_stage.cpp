@@ -42,6 +42,7 @@ CircuitStage::CircuitStage(const sc_core::sc_module_name& name, Circuit& circuit
     : sc_module(name),
       circuit_(circuit),
       pins_(pins),
+      where_(fmt::format("circuit {} in the place of {}", circuit.name(), model.manifest.stage)),
       options_(options),
       dataflow_(context.dataflow),
       clock_(context.clock),
@@ -109,6 +110,7 @@ void CircuitStage::start_of_simulation() {
     if (port.keep)
       port.keep.set(std::vector<std::uint64_t>((port.keep.width() + 63) / 64, ~std::uint64_t{0}));
   }
+  watch_ = std::make_unique<CircuitWatch>(circuit_, where_, options_.seconds);
   reset(false);
   circuit_.evaluate();
   reset(true);
@@ -218,6 +220,7 @@ bool CircuitStage::lacks_room(const CircuitOutput& output) {
 
 void CircuitStage::step() {
   ++clocked_;
+  watch_->at(cycle_);
   for (const auto& input : inputs_) {
     if (input->offer(cycle_)) due_ = cycle_;
   }

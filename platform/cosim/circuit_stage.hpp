@@ -14,6 +14,7 @@
 #include "platform/cosim/circuit_library.hpp"
 #include "platform/cosim/circuit_pins.hpp"
 #include "platform/cosim/circuit_port.hpp"
+#include "platform/cosim/circuit_watch.hpp"
 #include "platform/cosim/circuit_waves.hpp"
 #include "platform/cosim/ready_probe.hpp"
 #include "platform/cosim/stage_record.hpp"
@@ -97,6 +98,7 @@ class CircuitStage final : public sc_core::sc_module, public Actor, public Circu
 
   Circuit& circuit_;
   const CircuitPins& pins_;
+  const std::string where_;
   const CircuitOptions& options_;
   const Dataflow& dataflow_;
   const ClockDomain& clock_;
@@ -123,6 +125,7 @@ class CircuitStage final : public sc_core::sc_module, public Actor, public Circu
   sc_core::sc_time known_until_;  // every date before this is known
   sc_core::sc_event timer_;
   bool timer_runs_ = false;
+  std::unique_ptr<CircuitWatch> watch_;  // from the simulation's start on
   std::string fault_;
   std::unique_ptr<CircuitWaves> waves_;  // if wanted
 };

@@ -2,6 +2,7 @@
 #include "platform/evaluation/own_process.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <exception>
 #include <stdexcept>
@@ -44,6 +45,9 @@ std::optional<std::string> in_own_process(const std::function<std::string()>& wo
     if (interrupted()) return std::nullopt;
     process.receive(WorkerProcess::kPollMilliseconds);
   }
+  // It has said why (CircuitWatch), as it would have here.
+  if (process.state() == WorkerProcess::State::kDied && process.exit_code() != 0)
+    ::_exit(process.exit_code());
   if (process.state() != WorkerProcess::State::kAnswered)
     throw std::runtime_error(fmt::format("a simulation's process ended by signal {}", process.signal()));
   std::string text = process.take_answer();

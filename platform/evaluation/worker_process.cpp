@@ -111,6 +111,7 @@ void WorkerProcess::die() {
   }
   process_ = -1;
   if (WIFSIGNALED(status)) signal_ = WTERMSIG(status);
+  if (WIFEXITED(status)) exit_code_ = WEXITSTATUS(status);
   state_ = State::kDied;
 }
 

@@ -43,6 +43,7 @@ class WorkerProcess {
   std::string take_answer();
   /// The signal that ended a process that died; 0: none.
   int signal() const { return signal_; }
+  int exit_code() const { return exit_code_; }  ///< of one that has ended itself
   /// Ends it now, whatever it does.
   void kill();
 
@@ -54,6 +55,7 @@ class WorkerProcess {
   State state_ = State::kIdle;
   std::string received_;
   int signal_ = 0;
+  int exit_code_ = 0;
 };
 
 }  // namespace parallax

@@ -29,6 +29,7 @@ struct CircuitOptions {
   std::optional<std::uint64_t> timeout;
   /// Cycles before the first difference, and as many behind, of which waves are written; none: kCircuitWaves.
   std::optional<std::uint64_t> waves;
+  std::uint64_t seconds = 60;         ///< wall-clock time that one evaluation may take, >= 1
   std::optional<std::int64_t> bound;  ///< cycles by which a token may be later than the model's
 };
 

@@ -239,6 +239,30 @@ TEST(CircuitStandstill, SaysWhichCircuit) {
       << outcome.out;
 }
 
+// As an always block that does not end.
+TEST(CircuitStandstill, EndsAnEvaluationThatDoesNot) {
+  const Program program;
+  make_cpp_circuit(
+      program, "c", both(),
+      "in_ready = out_ready, out_valid = in_valid, out_data = in_data;\n static int tokens = 0;\n"
+      "tokens += rises && in_valid && out_ready;\n"
+      "for (volatile bool ends = false; tokens == 100 && !ends;) continue;");
+  const std::string run = std::string(kMachine) + "--circuit-seconds 1 " + kPlace;
+  for (const std::string& options : {std::string(), std::string("--circuit-shadow")}) {
+    const Outcome outcome = program(run + options);
+    EXPECT_EQ(outcome.code, 1) << outcome.out;
+    const std::string begin =
+        "parallax: error: circuit circuit in the place of noise_reduction has not come back from cycle ";
+    const std::string end =
+        " for 1 s, as with an endless loop in an always block; --circuit-seconds says how long it may take\n";
+    const std::size_t digits = outcome.err.find_first_not_of("0123456789", begin.size());
+    EXPECT_EQ(outcome.err.substr(0, begin.size()), begin);
+    EXPECT_EQ(outcome.err.substr(std::min(digits, outcome.err.size())), end);
+  }
+  make_cpp_circuit(program, "c", both(), "for (volatile bool ends = false; !ends;) continue;");
+  EXPECT_NE(program(run).err.find(" has not come back from its reset for 1 s"), std::string::npos);
+}
+
 // Of two ports, one has valid by its name.
 TEST(CircuitStandstill, TellsOfHalfAHandshake) {
   const Program program;
