@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -130,12 +131,25 @@ std::optional<TokenDates> compare_dates(const DumpOptions& options, const NamedD
   return TokenDates(*named.stream, cycles, model);
 }
 
-// More telling than what else was found.
-void say_first(TokenComparison& comparison, const DifferencePattern& pattern) {
-  std::vector<DifferencePattern>& all = comparison.patterns;
-  if (all.front().name == "none") all.clear();
-  all.insert(all.begin(), pattern);
-}
+// The words of a folder of vectors, each file read once. A file that is away is of a stream that nothing is
+// asked of.
+class VectorFiles {
+ public:
+  explicit VectorFiles(const std::filesystem::path& folder) : folder_(folder) {}
+  const TokenWords& read(const VectorStream& stream) {
+    auto found = words_.find(stream.name);
+    if (found == words_.end())
+      found = words_.emplace(stream.name, read_vectors((folder_ / stream.file).string(), stream)).first;
+    return found->second;
+  }
+  const TokenWords* find(const VectorStream& stream) {
+    return std::filesystem::exists(folder_ / stream.file) ? &read(stream) : nullptr;
+  }
+
+ private:
+  const std::filesystem::path folder_;
+  std::map<std::string, TokenWords> words_;
+};
 
 int compare_dumps(const DumpOptions& options, CommandContext& context) {
   const VectorManifest manifest = read_vector_manifest(options.vectors);
@@ -143,12 +157,15 @@ int compare_dumps(const DumpOptions& options, CommandContext& context) {
   cv::Mat image;  // of the first stream that differs
   std::string said;
   nlohmann::ordered_json streams = nlohmann::ordered_json::array();
+  VectorFiles model(options.vectors);
   for (const std::string& word : options.dumps) {
     const NamedDump dump = dump_of(manifest, word);
-    const TokenWords expected = read_vectors((options.vectors / dump.stream->file).string(), *dump.stream);
+    const TokenWords& expected = model.read(*dump.stream);
     const DumpSignals signals = read_signals(manifest, *dump.stream, options.signals);
     const Dump got = read_dump(dump.file, *dump.stream, signals);
-    TokenComparison comparison = compare_tokens(manifest, *dump.stream, expected, got);
+    TokenComparison comparison =
+        compare_tokens(manifest, *dump.stream, expected, got,
+                       [&model](const VectorStream& stream) { return model.find(stream); });
     if (const auto one_path = find_one_path(comparison, expected, got.words, options.vectors))
       say_first(comparison, *one_path);
     const std::optional<TokenDates> dates = compare_dates(options, dump, got);

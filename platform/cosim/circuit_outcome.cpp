@@ -40,11 +40,15 @@ CircuitOutcome circuit_outcome(const std::string& module, const CircuitStage& ci
   }
   nlohmann::ordered_json streams = nlohmann::ordered_json::array();
   std::size_t output = 0;
+  const ModelTokens recorded = [&model](const VectorStream& stream) {
+    return &model.streams[static_cast<std::size_t>(&stream - model.manifest.streams.data())].words;
+  };
   for (std::size_t i = 0; i < model.streams.size(); ++i) {
     const VectorStream& stream = model.manifest.streams[i];
     if (stream.is_input) continue;
     const Dump& dump = circuit.output(output++).dump();
-    const TokenComparison values = compare_tokens(model.manifest, stream, model.streams[i].words, dump);
+    const TokenComparison values =
+        compare_tokens(model.manifest, stream, model.streams[i].words, dump, recorded);
     const TokenDates dates(stream, dump.cycles, model.streams[i].cycles);
     outcome.as_model = outcome.as_model && values.equal() && dates.within(options.bound);
     outcome.text += text(values) + dates.text(options.bound);

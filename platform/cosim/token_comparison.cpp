@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "platform/cosim/difference_pattern.hpp"
+#include "platform/cosim/other_stream.hpp"
 
 namespace parallax {
 namespace {
@@ -81,7 +82,7 @@ void for_each_difference(const VectorStream& stream, const TokenWords& expected,
 }
 
 TokenComparison compare_tokens(const VectorManifest& manifest, const VectorStream& stream,
-                               const TokenWords& expected, const Dump& got) {
+                               const TokenWords& expected, const Dump& got, const ModelTokens& model) {
   const std::vector<TokenField>& fields = stream.shape.format.all();
   TokenComparison out;
   out.manifest = &manifest;
@@ -118,13 +119,22 @@ TokenComparison compare_tokens(const VectorManifest& manifest, const VectorStrea
   for (const auto& [field, count] : in_field.counts())
     out.fields[fields[static_cast<std::size_t>(field)].name] = count;
   if (!out.equal()) out.patterns = find_patterns(out, expected, got.words);
+  if (const auto other = find_other_stream(out, got.words, model)) say_first(out, *other);
+  out.effect = stage_effect(manifest, stream, expected, model);
   return out;
+}
+
+void say_first(TokenComparison& comparison, const DifferencePattern& pattern) {
+  std::vector<DifferencePattern>& all = comparison.patterns;
+  if (!all.empty() && all.front().name == "none") all.clear();
+  all.insert(all.begin(), pattern);
 }
 
 std::string text(const TokenComparison& comparison) {
   const VectorStream& stream = *comparison.stream;
   if (comparison.equal())
-    return fmt::format("{}: equal, {}\n", stream.name, plural(comparison.expected_tokens, "token"));
+    return fmt::format("{}: equal, {}\n", stream.name, plural(comparison.expected_tokens, "token")) +
+           text(comparison.effect);
   std::string out;
   if (comparison.expected_tokens != comparison.got_tokens) {
     const bool few = comparison.got_tokens < comparison.expected_tokens;
@@ -177,6 +187,7 @@ nlohmann::ordered_json to_json(const TokenComparison& comparison) {
                              {"different_tokens", comparison.different_tokens},
                              {"unknown_tokens", comparison.unknown_tokens},
                              {"different_values", comparison.different_values}};
+  add_to(out, comparison.effect);
   if (const auto& first = comparison.first) {
     nlohmann::ordered_json place{{"token", first->token}, {"frame", first->place.frame}};
     const auto add = [&place](const char* name, std::int64_t value) {

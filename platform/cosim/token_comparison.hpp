@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "platform/cosim/dump_file.hpp"
+#include "platform/cosim/stage_effect.hpp"
 #include "platform/cosim/token_words.hpp"
 #include "platform/cosim/vector_manifest.hpp"
 
@@ -43,17 +44,23 @@ struct TokenComparison {
   std::map<std::int64_t, std::uint64_t> rows, columns, disparities;
   std::map<std::string, std::uint64_t> fields;
   std::vector<DifferencePattern> patterns;  ///< the most telling first; none when equal
+  StageEffect effect;
 
   bool equal() const { return different_tokens == 0 && expected_tokens == got_tokens; }
 };
 
 /// `expected` and `got` have the width of the stream. What is passed by reference must outlive the result.
+/// `model` has what other streams of the manifest are asked for; without it, what only these tell is not
+/// told.
 TokenComparison compare_tokens(const VectorManifest& manifest, const VectorStream& stream,
-                               const TokenWords& expected, const Dump& got);
+                               const TokenWords& expected, const Dump& got, const ModelTokens& model = {});
 
 /// Calls `take` with each value that differs, in stream order.
 void for_each_difference(const VectorStream& stream, const TokenWords& expected, const TokenWords& got,
                          const std::function<void(std::uint64_t token, std::size_t field)>& take);
+
+/// Puts a pattern before what else was found, in the place of `none`.
+void say_first(TokenComparison& comparison, const DifferencePattern& pattern);
 
 std::string text(const TokenComparison& comparison);
 nlohmann::ordered_json to_json(const TokenComparison& comparison);

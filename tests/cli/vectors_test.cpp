@@ -191,6 +191,35 @@ TEST_F(Vectors, AreEqualToThemselvesAndDifferFromWhatWasChanged) {
   EXPECT_EQ(program_("compare --vectors v --dump out_right=right.memh -q").out, "");
 }
 
+// Where a filter leaves its input as it is, a circuit that does nothing is equal.
+TEST_F(Vectors, OfAFilterSayHowManyTokensItChanges) {
+  struct Filter {
+    const char *stage, *input, *output;
+  };
+  for (const Filter& filter : {Filter{"uniqueness", "winners", "unique"},
+                               {"speckle", "textured", "despeckled"},
+                               {"noise_reduction", "interpolated", "smoothed"}}) {
+    const json manifest = make(filter.stage, "v");
+    const std::vector<std::uint64_t> in = words(fmt::format("v/{}.memh", filter.input));
+    const std::vector<std::uint64_t> out = words(fmt::format("v/{}.memh", filter.output));
+    ASSERT_EQ(in.size(), out.size());
+    int changed = 0;
+    for (std::size_t i = 0; i < in.size(); ++i) changed += in[i] == out[i] ? 0 : 1;
+    const std::string compare = fmt::format("compare --vectors v --dump v/{}.memh", filter.output);
+    const json tree = json::parse(program_(compare + " --json").out);
+    EXPECT_EQ(tree.at("streams").at(0).at("changed_tokens"), changed) << filter.stage;
+    EXPECT_EQ(tree.at("streams").at(0).at("input_stream"), filter.input);
+    EXPECT_EQ(
+        program_(compare).out,
+        fmt::format("{}: equal, 3072 tokens\n", filter.output) +
+            (changed >= 31 ? ""
+                           : fmt::format("equal says little   the stage changes {} of 3072 tokens of {}\n",
+                                         changed, filter.input)));
+    std::filesystem::remove(program_ / fmt::format("v/{}.memh", filter.input));
+    EXPECT_EQ(program_(compare).out, fmt::format("{}: equal, 3072 tokens\n", filter.output));
+  }
+}
+
 TEST_F(Vectors, WhatCannotBeCompared) {
   make("census", "v");
   const std::string compare = "compare --vectors v --dump ";

@@ -190,6 +190,7 @@ TEST(CircuitRun, BetweenTwoCircuitsReadyIsNotCombinational) {
         "--set streams.smoothed.kind=free --set streams.smoothed.read_to_write=0"}) {
     const Outcome outcome = program(two + allowed);
     EXPECT_EQ(outcome.code, 0) << allowed << "\n" << outcome.err << outcome.out;
+    EXPECT_EQ(count(outcome.out, "equal says little   the stage changes 0 of "), 2U) << outcome.out;
   }
 }
 

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "platform/cosim/other_stream.hpp"
+
+#include <fmt/format.h>
+
+namespace parallax {
+namespace {
+
+// In all tokens that came out, of which some are others than the first.
+bool has_tokens_of(const TokenWords& got, const TokenWords& other) {
+  if (got.size() == 0 || got.size() > other.size()) return false;
+  bool is_one_value = true;
+  for (std::uint64_t token = 0; token < got.size(); ++token) {
+    if (!got.same(token, other, token)) return false;
+    is_one_value = is_one_value && got.same(token, other, 0);
+  }
+  return !is_one_value;
+}
+
+}  // namespace
+
+std::optional<DifferencePattern> find_other_stream(const TokenComparison& comparison, const TokenWords& got,
+                                                   const ModelTokens& model) {
+  const VectorStream& stream = *comparison.stream;
+  if (!model || comparison.different_tokens == 0 || stream.is_input) return std::nullopt;
+  for (const VectorStream& other : comparison.manifest->streams) {
+    if (&other == &stream || !are_alike(other, stream)) continue;
+    const TokenWords* const words = model(other);
+    if (words == nullptr || !has_tokens_of(got, *words)) continue;
+    if (other.is_input) {
+      return DifferencePattern{
+          "input_unchanged",
+          fmt::format("all its tokens are those of the input {}: the stage does nothing", other.name)};
+    }
+    return DifferencePattern{
+        "exchanged_streams",
+        fmt::format("all its tokens are those of {}: the two are exchanged, or that one is there twice",
+                    other.name)};
+  }
+  return std::nullopt;
+}
+
+}  // namespace parallax
