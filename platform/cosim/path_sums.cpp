@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "platform/cosim/token_shift.hpp"
+#include "platform/cosim/pattern_evidence.hpp"
 
 namespace parallax {
 namespace {

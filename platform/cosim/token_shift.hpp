@@ -9,16 +9,14 @@
 
 namespace parallax {
 
-/// So many tokens a rule must explain: one alone follows any.
-inline constexpr std::size_t kLeastExplained = 2;
-
-/// Whether one stream is the other, but for its end: `truncated`, `surplus`; none where tokens differ.
-std::vector<DifferencePattern> find_end(const TokenComparison& comparison);
-
-/// Whether a stream has the model's tokens in other places: some lost, or too many, or all of them late or
-/// early, by some tokens, columns or rows. `differing`: the first tokens that differ, kLeastExplained or more
-/// of them in all.
-std::vector<DifferencePattern> find_shift(const TokenComparison& comparison, const TokenWords& expected,
+/// Whether all of a stream is the model's some tokens late or early, in each row or over all of them.
+/// `differing`: the first tokens that differ; of kLeastMoved or more, else nothing is found.
+std::vector<DifferencePattern> find_delay(const TokenComparison& comparison, const TokenWords& expected,
                                           const TokenWords& got, const std::vector<std::uint64_t>& differing);
+
+/// Whether a stream is the model's some columns and rows (8 px each at most) late or early but for a rim of
+/// 16 px, or a quarter of the image, at most; at least kLeastMoved tokens inside it must differ.
+std::vector<DifferencePattern> find_moved(const TokenComparison& comparison, const TokenWords& expected,
+                                          const TokenWords& got);
 
 }  // namespace parallax

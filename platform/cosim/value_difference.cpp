@@ -14,6 +14,7 @@ namespace parallax {
 namespace {
 
 constexpr std::size_t kBitsThatTell = 3;
+constexpr std::size_t kLeastOneWay = 16;  // tokens: all one way by chance in one of 2^15 cases
 
 // Of the values that differ.
 struct Differing {
@@ -73,6 +74,33 @@ std::optional<DifferencePattern> find_value_difference(const VectorStream& strea
   if (right < kBitsThatTell) return std::nullopt;
   return DifferencePattern{"upper_bits",
                            fmt::format("the lowest {} bits of the values are right, others differ", right)};
+}
+
+std::optional<DifferencePattern> find_one_way_bits(const VectorStream& stream, const TokenWords& expected,
+                                                   const TokenWords& got) {
+  const std::vector<TokenField>& fields = stream.shape.format.all();
+  const bool are_codes = std::all_of(
+      fields.begin(), fields.end(), [](const TokenField& field) { return field.name.rfind("code", 0) == 0; });
+  if (!are_codes) return std::nullopt;
+  bool unknown = false, some_set = false, some_cleared = false;
+  std::uint64_t values = 0;
+  std::set<std::uint64_t> instead;  // two at most
+  for_each_difference(stream, expected, got, [&](std::uint64_t token, std::size_t index) {
+    const std::uint64_t right = expected.raw(token, fields[index]), wrong = got.raw(token, fields[index]);
+    unknown = unknown || got.unknown(token, fields[index]);
+    some_set = some_set || (wrong & ~right) != 0;
+    some_cleared = some_cleared || (right & ~wrong) != 0;
+    if (instead.size() < 2) instead.insert(wrong);
+    ++values;
+  });
+  if (unknown || some_set == some_cleared || values < kLeastOneWay || instead.size() < 2) return std::nullopt;
+  if (some_set) {
+    return DifferencePattern{
+        "only_set_bits", "bits are 1 where the model's are 0, never the other way: as with <= in place of <"};
+  }
+  return DifferencePattern{
+      "only_cleared_bits",
+      "bits are 0 where the model's are 1, never the other way: as with < in place of <="};
 }
 
 }  // namespace parallax

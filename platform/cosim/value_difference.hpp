@@ -15,4 +15,11 @@ namespace parallax {
 std::optional<DifferencePattern> find_value_difference(const VectorStream& stream, const TokenWords& expected,
                                                        const TokenWords& got);
 
+/// Of codes, whether bits are set where the model has none and never the other way (`only_set_bits`), or the
+/// reverse (`only_cleared_bits`): a comparison that takes equal values for less, or does not. Needs so many
+/// that this is no chance, and not one value wherever a token differs, as if masked. Nothing of other tokens,
+/// or if some bits are unknown.
+std::optional<DifferencePattern> find_one_way_bits(const VectorStream& stream, const TokenWords& expected,
+                                                   const TokenWords& got);
+
 }  // namespace parallax

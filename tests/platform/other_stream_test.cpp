@@ -49,9 +49,11 @@ TEST_F(Streams, AreExchangedOrPassed) {
   const std::string end = ": the two are exchanged, or that one is there twice";
   EXPECT_EQ(said(all_[2]), "exchanged_streams: all its tokens are those of right" + end);
   EXPECT_EQ(said(all_[1], 2), "exchanged_streams: all its tokens are those of left" + end);
-  EXPECT_EQ(said(all_[0]),
-            "input_unchanged: all its tokens are those of the input pixels: the stage does nothing");
+  EXPECT_EQ(said(all_[0]), "input_unchanged: all its tokens are those of the input pixels, unchanged");
   EXPECT_EQ(said(all_[1]), ": ");
+  // Of an output that is as the input, too.
+  all_[0] = all_[2];
+  EXPECT_EQ(said(all_[2]), "exchanged_streams: all its tokens are those of right" + end);
   // Of fewer tokens it is still true.
   Words cut(all_[2].begin(), all_[2].begin() + 700);
   EXPECT_EQ(said(cut), "exchanged_streams: all its tokens are those of right" + end);

@@ -41,12 +41,15 @@ BENCHES = {
 # Kinds of mistakes, and the patterns that are right for each.
 HANDSHAKE = {"handshake"}  # the test bench names the port, or tokens are lost or moved
 MOVED = {"token_lost", "tokens_lost", "token_doubled", "tokens_inserted", "truncated", "surplus", "constant_latency"}
+MOVED |= {"row_lost", "rows_lost", "row_doubled", "rows_inserted", "column_lost", "column_doubled", "every_second", "each_twice"}
 COLUMN = {"one_column_late", "one_column_early", "constant_latency", "token_lost", "token_doubled"}
-ROW = {"one_row_late", "one_row_early", "constant_latency", "tokens_lost", "tokens_inserted"}
+ROW = {"one_row_late", "one_row_early", "constant_latency", "tokens_lost", "tokens_inserted", "row_lost", "row_doubled"}
 BORDER = {"only_rim", "only_first_rows", "only_last_rows", "only_first_columns", "only_last_columns"}
 STATE = {"rows_after_first", "columns_after_first", "frames_after_first"}  # what comes from before
 LANE = {"one_disparity", "only_first_disparity", "only_last_disparity", "one_group", "one_field"}
 COMPARISON = {"inverted_comparison", "inverted"}
+TIES = {"only_set_bits", "only_cleared_bits"}  # of a comparison that takes equal values for less, or does not
+EXCHANGED = {"exchanged_streams", "input_unchanged"}
 BIT = {"one_bit", "top_bits_lost", "saturated"}
 ORDER = {"bit_order", "byte_order", "field_order"}
 OFFSET = {"constant_offset"}
@@ -57,7 +60,7 @@ VALUES = {"none", "all_but_rim"}  # other values here and there: nothing that th
 CENSUS = [
     ("census_image.sv", "all_right[AT*8 +: 8] < all_right", "all_right[AT*8 +: 8] > all_right", COMPARISON, {"row": 0}),
     ("census_image.sv", "all_right[AT*8 +: 8] < all_right", "all_right[AT*8 +: 8] >= all_right", COMPARISON, {"row": 0}),
-    ("census_image.sv", "all_right[AT*8 +: 8] < all_right", "all_right[AT*8 +: 8] <= all_right", VALUES | COMPARISON),
+    ("census_image.sv", "all_right[AT*8 +: 8] < all_right", "all_right[AT*8 +: 8] <= all_right", TIES),
     ("census_image.sv", "comparisons[CODE_BITS-1-i]", "comparisons[i]", ORDER, {"row": 0}),
     ("census_image.sv", "i < CODE_BITS / 2 ? i : i + 1", "i <= CODE_BITS / 2 ? i : i + 1", BIT),
     ("census_image.sv", "PLACE % WINDOW_WIDTH * WINDOW_HEIGHT + PLACE / WINDOW_WIDTH", "PLACE", ORDER | VALUES),
@@ -80,7 +83,7 @@ CENSUS = [
     ("census.sv", ".AHEAD(WINDOW_HEIGHT / 2 * WIDTH + WINDOW_WIDTH / 2)", ".AHEAD(WINDOW_HEIGHT / 2 * WIDTH + 1)", COLUMN, {"row": 0}),
     ("census.sv", ".AHEAD(WINDOW_HEIGHT / 2 * WIDTH + WINDOW_WIDTH / 2)", ".AHEAD(WINDOW_HEIGHT / 2 * WIDTH + 3)", COLUMN, {"row": 0}),
     ("census.sv", ".AHEAD(WINDOW_HEIGHT / 2 * WIDTH + WINDOW_WIDTH / 2)", ".AHEAD(WIDTH + WINDOW_WIDTH / 2)", ROW, {"row": 0}),
-    ("census.sv", ".pixel(in_right_data)", ".pixel(in_left_data)", VALUES),
+    ("census.sv", ".pixel(in_right_data)", ".pixel(in_left_data)", EXCHANGED),
     ("census.sv", "in_left_ready = may_fire && reads && in_right_valid", "in_left_ready = may_fire && reads", HANDSHAKE),
     ("census.sv", "inputs_valid = !reads || both_valid", "inputs_valid = !reads || in_left_valid", HANDSHAKE),
     ("output_pair.sv", "b_valid = valid && !b_done", "b_valid = valid", HANDSHAKE),
