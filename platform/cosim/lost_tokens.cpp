@@ -173,12 +173,13 @@ class LostTokens {
     return fmt::format("a column of each row, one of {} to {},", column(first), column(last));
   }
 
-  // Found by going through both and leaving some out where the next ones then agree. Not both lost and too
-  // many: where many are alike, as in a flat image, one that has another value would be one too many, and
-  // lost at the flat part's end.
+  // Found by going through both and leaving some of the longer one out where the next ones then agree. Of
+  // equal length nothing is: where many are alike, as in a flat image, a token of another value would be one
+  // too many, and lost at the flat part's end.
   void find_here_and_there() {
-    const std::uint64_t most = std::max(kMostAtOnce, row_);
-    std::uint64_t lost = 0, inserted = 0, at = 0, from = 0, places = 0;
+    const bool is_lost = got_.size() < expected_.size();
+    if (got_.size() == expected_.size()) return;
+    std::uint64_t skipped = 0, at = 0, from = 0, places = 0;
     std::optional<std::uint64_t> first;
     std::set<std::int64_t> columns;
     while (at < got_.size() && from < expected_.size()) {
@@ -191,30 +192,38 @@ class LostTokens {
       if (!first) first = from;
       if (columns.size() < 2)
         columns.insert(comparison_.manifest->place(*comparison_.stream, from, 0).column);
-      std::uint64_t number = 1;
-      while (number <= most && !agree(at, from + number) && !agree(at + number, from)) ++number;
-      if (number > most) return;
-      const bool is_lost = agree(at, from + number);
-      (is_lost ? lost : inserted) += number;
+      const std::uint64_t number = next_agreeing(at, from, is_lost);
+      if (number == 0) return;
+      skipped += number;
       (is_lost ? from : at) += number;
-      if (lost > 0 && inserted > 0) return;
     }
     const std::uint64_t missing = expected_.size() - from, more = got_.size() - at;
-    if (!first || lost + inserted < kLeastExplained || (lost > 0 ? more : missing) > 0) return;
-    const std::string where = (places == 1 ? "at one place" : fmt::format("at {} places", places)) +
-                              (places > 1 && columns.size() == 1 && *columns.begin() >= 0
-                                   ? fmt::format(", each in column {}", *columns.begin())
-                                   : "");
-    const std::uint64_t end = lost > 0 ? missing : more;
-    add(lost > 0 ? "tokens_lost" : "tokens_inserted",
-        fmt::format("{} tokens are {} {}, the first one {}{}, all others are there{}", lost + inserted,
-                    lost > 0 ? "lost" : "too many", where, lost > 0 ? "" : "before ", place_of(*first),
+    if (!first || skipped < kLeastExplained || (is_lost ? more : missing) > 0) return;
+    const bool in_one_column = places > 1 && columns.size() == 1 && *columns.begin() >= 0;
+    const std::uint64_t end = is_lost ? missing : more;
+    add(is_lost ? "tokens_lost" : "tokens_inserted",
+        fmt::format("{} tokens are {} at {}{}, the first one {}{}, all others are there{}", skipped,
+                    is_lost ? "lost" : "too many",
+                    places == 1 ? "one place" : fmt::format("{} places", places),
+                    in_one_column ? fmt::format(", each in column {}", *columns.begin()) : "",
+                    is_lost ? "" : "before ", place_of(*first),
                     end == 0 ? "" : fmt::format(" but for the last {}", end)));
   }
 
-  // Whether the next tokens are the same.
-  bool agree(std::uint64_t at, std::uint64_t from) const {
-    for (std::uint64_t i = 0; i < kLeastBetween; ++i) {
+  // How many to leave out so that most of the next ones agree, or, where some of these are lost too, fewer.
+  // 0: none can be.
+  std::uint64_t next_agreeing(std::uint64_t at, std::uint64_t from, bool is_lost) const {
+    for (const std::uint64_t least : {kLeastBetween, kLeastBetween / 4, std::uint64_t{1}}) {
+      for (std::uint64_t number = 1; number <= std::max(kMostAtOnce, row_); ++number) {
+        if (is_lost ? agree(at, from + number, least) : agree(at + number, from, least)) return number;
+      }
+    }
+    return 0;
+  }
+
+  // Whether the next so many tokens are the same, as far as there are any.
+  bool agree(std::uint64_t at, std::uint64_t from, std::uint64_t tokens) const {
+    for (std::uint64_t i = 0; i < tokens; ++i) {
       if (at + i >= got_.size() || from + i >= expected_.size()) return i > 0;
       if (!got_.same(at + i, expected_, from + i)) return false;
     }

@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <random>
+#include <vector>
 
 #include "tests/platform/altered_dump.hpp"
 
@@ -107,6 +109,23 @@ TEST_F(TokensLost, HereAndThere) {
   cut.resize(2300);
   EXPECT_EQ(said(cut), "tokens_lost: 39 tokens are lost at 3 places, the first one " + first + end +
                            " but for the last 61");
+}
+
+// Some of them near each other.
+TEST_F(TokensLost, AtRandom) {
+  make(codes(64, 24), 64, 48, 2);
+  std::mt19937 random(3);
+  std::vector<int> times;
+  int lost = 0, places = 0;
+  for (std::size_t i = 0; i < words_.size(); ++i) {
+    times.push_back(i > 100 && i + 100 < words_.size() && random() % 100 < 2 ? 0 : 1);
+    lost += 1 - times[i];
+    places += times[i] == 0 && times[i - 1] == 1 ? 1 : 0;
+  }
+  ASSERT_GT(lost, 80);
+  ASSERT_LT(places, lost) << "some are neighbours";
+  EXPECT_EQ(said(with([&](auto i) { return times[i]; })).substr(0, 51),
+            fmt::format("tokens_lost: {} tokens are lost at {} places, the fir", lost, places).substr(0, 51));
 }
 
 // What is none of these: tokens that are wrong as well, and flat images, where anything follows anything.
