@@ -16,6 +16,9 @@ namespace {
 
 constexpr std::int64_t kWidestRim = 16;  // px; 31 x 31 is the largest usual window
 
+// Share of all rows, columns or frames but the first.
+double all_but_one(std::int64_t number) { return 1 - 1 / static_cast<double>(number); }
+
 class RegionSearch {
  public:
   RegionSearch(const TokenComparison& comparison, const TokenWords& expected, const TokenWords& got)
@@ -79,14 +82,23 @@ class RegionSearch {
       add("one_field", fmt::format("only field {} differs", comparison_.fields.begin()->first));
     }
     if (manifest_.frames > 1 && frames_.size() < static_cast<std::size_t>(manifest_.frames)) {
-      if (frames_.count(0) == 0 && frames_.size() + 1 == static_cast<std::size_t>(manifest_.frames))
+      if (frames_.count(0) == 0 && frames_.size() + 1 == static_cast<std::size_t>(manifest_.frames) &&
+          is_no_chance(all_but_one(manifest_.frames)))
         add("frames_after_first",
             "the first frame is equal, all others differ: something is left over of it");
-      if (frames_.size() == 1 && frames_.count(0) == 1)
+      if (frames_.size() == 1 && frames_.count(0) == 1 &&
+          is_no_chance(1 / static_cast<double>(manifest_.frames)))
         add("only_first_frame", "only the first frame differs");
     }
     if (manifest_.tile_begins.size() > 1 && tiles_.size() == 1)
       add("one_tile", fmt::format("only tile {} differs", *tiles_.begin()));
+  }
+
+  // Whether all differences lie in such a share of the image, or of the frames, though spread evenly so many
+  // would not.
+  bool is_no_chance(double share) const {
+    const double pixels = quotient(comparison_.different_tokens, stream_.shape.tokens_per_pixel);
+    return -std::log(share) * pixels >= kMissedByChance;
   }
 
   // Width of the rim in which nothing differs on any side, px; 0 also where none need differ there: so little
@@ -97,9 +109,7 @@ class RegionSearch {
     const std::int64_t rim = std::min(sides);
     const std::int64_t width = manifest_.tile_width, height = manifest_.height;
     const std::int64_t inside = (width - 2 * rim) * (height - 2 * rim);
-    const double share = 1 - static_cast<double>(inside) / static_cast<double>(width * height);
-    const double pixels = quotient(comparison_.different_tokens, stream_.shape.tokens_per_pixel);
-    if (pixels * share < kMissedByChance) return 0;
+    if (!is_no_chance(static_cast<double>(inside) / static_cast<double>(width * height))) return 0;
     const std::uint64_t masked = expected_.raw(0, fields_.front());
     const auto is_in_rim = [&](const ValuePlace& place) {
       const std::int64_t x = place.column - manifest_.tile_begins[static_cast<std::size_t>(place.tile)];
@@ -151,9 +161,8 @@ class RegionSearch {
     const std::int64_t within = (width - 2 * (rim_ + 1)) * (height - 2 * (rim_ + 1));
     // That all lie there by chance must be as rare as that none lies in a part of the image.
     const double share = 1 - static_cast<double>(within) / static_cast<double>(width * height);
-    const double pixels = quotient(comparison_.different_tokens, stream_.shape.tokens_per_pixel);
     if (found_.patterns.size() == before && is_small(rim_, std::min(width, height)) && share <= 0.5 &&
-        -std::log(share) * pixels >= kMissedByChance)
+        is_no_chance(share))
       add("only_rim", fmt::format("only the rim differs, {} px wide", rim_ + 1));
     if (const std::int64_t equal = equal_rim(); equal > 0 && is_small(equal - 1, std::min(width, height))) {
       add("all_but_rim",
@@ -167,7 +176,7 @@ class RegionSearch {
     const std::int64_t first_row = order == ScanOrder::kTurned ? bottom_least_ : top_least_;
     const std::int64_t first_column = order == ScanOrder::kRaster ? left_least_ : right_least_;
     const auto tells = [&](std::int64_t ValuePlace::*of, std::int64_t line) { return !is_same(of, line); };
-    if (first_row == 1 && pixels >= kMissedByChance * static_cast<double>(height) &&
+    if (first_row == 1 && is_no_chance(all_but_one(height)) &&
         tells(&ValuePlace::row, order == ScanOrder::kTurned ? height - 1 : 0) &&
         2 * rows >= static_cast<std::size_t>(height - 1) && height > 2) {
       add("rows_after_first",
@@ -175,7 +184,7 @@ class RegionSearch {
               ? "the last row is equal, those above it differ: what comes from the row below"
               : "the first row is equal, those after it differ: what comes from the row above");
     }
-    if (first_column == 1 && pixels >= kMissedByChance * static_cast<double>(width) &&
+    if (first_column == 1 && is_no_chance(all_but_one(width)) &&
         tells(&ValuePlace::column,
               manifest_.tile_begins[0] + (order == ScanOrder::kRaster ? 0 : width - 1)) &&
         2 * columns >= static_cast<std::size_t>(width - 1) && width > 2) {

@@ -15,8 +15,8 @@ inline constexpr std::size_t kLeastMoved = 8;
 /// So many of the tokens that differ a guess must explain before all tokens are looked at.
 inline constexpr std::size_t kSamples = 200;
 
-/// Differences that a part of the image would have if they were spread evenly: none there is then no chance
-/// (e^-8).
+/// That all differences lie in a part of the image is no chance where, spread evenly, they would do so once
+/// in e^8 images.
 inline constexpr double kMissedByChance = 8;
 
 }  // namespace parallax

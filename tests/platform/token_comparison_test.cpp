@@ -193,6 +193,16 @@ TEST_F(AlteredDump, AnotherFrameOrTile) {
     return place.frame > 0 ? value * 5 + 1 : value;
   };
   EXPECT_EQ(pattern(later), "frames_after_first");
+  // In one of three frames none of some 20 is no chance, of a few it may be.
+  const auto some = [this](int number, bool in_first) {
+    Words got = words_;
+    for (int i = 0; i < number; ++i) got[(in_first ? 0 : 640) + i * 37][0] ^= 1 + i % 3;
+    return first_pattern(got);
+  };
+  EXPECT_EQ(some(20, false), "frames_after_first");
+  EXPECT_EQ(some(19, false), "none");
+  EXPECT_EQ(some(8, true), "only_first_frame");
+  EXPECT_EQ(some(7, true), "none");
   manifest_.width = 56;
   manifest_.tile_begins = {0, 24};
   manifest_.frames = 1;

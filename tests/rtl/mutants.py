@@ -54,7 +54,8 @@ BIT = {"one_bit", "top_bits_lost", "saturated"}
 ORDER = {"bit_order", "byte_order", "field_order"}
 OFFSET = {"constant_offset"}
 CONSTANT = {"constant", "unknown_bits"}
-VALUES = {"none", "all_but_rim"}  # other values here and there: nothing that they have in common, or but that the rim passes unchanged
+# Other values here and there: nothing that they have in common, but perhaps that the rim passes unchanged, or by how much they differ.
+VALUES = {"none", "all_but_rim", "only_validity", "invalid_as", "off_by_one", "upper_bits"}
 
 # (file, old, new, patterns[, place])
 CENSUS = [
@@ -179,8 +180,8 @@ SUBPIXEL = [
     ("lowest_of.sv", "b_index + 8'(LOW)", "b_index", VALUES),
 ]
 UNIQUENESS = [
-    ("uniqueness.sv", "side_1 < rival_side_1", "side_1 > rival_side_1", VALUES),
-    ("uniqueness.sv", "side_1 < rival_side_1", "side_1 <= rival_side_1", VALUES),
+    ("uniqueness.sv", "side_1 < rival_side_1", "side_1 > rival_side_1", VALUES | COMPARISON),
+    ("uniqueness.sv", "side_1 < rival_side_1", "side_1 <= rival_side_1", VALUES | EXCHANGED),
     ("uniqueness.sv", "SIDE_BITS'(FACTOR)", "SIDE_BITS'(FACTOR + 128)", VALUES),
     ("uniqueness.sv", "{5'd0, rival_0, 8'd0}", "{5'd0, best_0, 8'd0}", CONSTANT, {"row": 2}),
     ("uniqueness.sv", "index == 8'(j) ||", "", CONSTANT, {"row": 2}),
@@ -193,7 +194,7 @@ UNIQUENESS = [
     ("uniqueness.sv", "first_group || lowest < best", "lowest < best", VALUES | CONSTANT | STATE),
     ("uniqueness.sv", "all_earlier = first_group ? NONE : earlier", "all_earlier = earlier", VALUES | CONSTANT | STATE),
     ("uniqueness.sv", "lower(rival, lowest_upper)", "lowest_upper", VALUES),
-    ("uniqueness.sv", "disparity_1 : 12'hfff", "12'hfff : disparity_1", VALUES),
+    ("uniqueness.sv", "disparity_1 : 12'hfff", "12'hfff : disparity_1", VALUES | COMPARISON),
     ("uniqueness.sv", "disparity_1 <= disparity_0", "disparity_1 <= in_disparity_data", COLUMN | VALUES | CONSTANT),
     ("uniqueness.sv", "in_disparity_ready = may_fire && last_group && in_costs_valid", "in_disparity_ready = may_fire && last_group", HANDSHAKE),
     ("uniqueness.sv", "in_costs_ready = may_fire && (!last_group || in_disparity_valid)", "in_costs_ready = may_fire", HANDSHAKE),
