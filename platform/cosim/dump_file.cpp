@@ -21,18 +21,29 @@ std::size_t line_of(const std::string& text, const char* at) {
   return static_cast<std::size_t>(std::count(text.data(), at, '\n')) + 1;
 }
 
+bool has_prefix(std::string_view digits) {
+  return digits.substr(0, 2) == "0x" || digits.substr(0, 2) == "0X";
+}
+
+// In $readmemh's text x is a digit.
+constexpr const char* kNoPrefix = "hexadecimal words have no 0x before them here: that x is an unknown digit";
+
 // Words, separated by blanks; comments as in Verilog; @address must be where the words are anyway, as
 // $writememh has it.
 TokenWords read_memh(const std::string& text, const std::string& path, std::size_t width) {
   TokenWords words(width);
   const char* at = text.data();
   const char* const end = at + text.size();
+  std::uint64_t prefixed = 0;
   const auto fail = [&](const char* where, const std::string& what) {
     return UserError(fmt::format("{}, line {}: {}", path, line_of(text, where), what));
   };
   while (true) {
     while (at != end && is_blank(*at)) ++at;
-    if (at == end) return words;
+    if (at == end) {
+      if (prefixed > 1 && prefixed == words.size()) throw UserError(fmt::format("{}: {}", path, kNoPrefix));
+      return words;
+    }
     const char* const begin = at;
     if (*at == '/' && at + 1 != end && at[1] == '/') {
       at = std::find(at, end, '\n');
@@ -58,7 +69,10 @@ TokenWords read_memh(const std::string& text, const std::string& path, std::size
       }
       continue;
     }
-    if (const std::string wrong = words.append_hex(begin, at); !wrong.empty()) throw fail(begin, wrong);
+    const bool is_prefixed = has_prefix({begin, static_cast<std::size_t>(at - begin)});
+    prefixed += is_prefixed;
+    if (const std::string wrong = words.append_hex(begin, at); !wrong.empty())
+      throw fail(begin, is_prefixed ? kNoPrefix : wrong);
   }
 }
 
@@ -87,7 +101,8 @@ class CsvReader {
       const std::string_view line = text.substr(0, end);
       text.remove_prefix(std::min(end + 1, text.size()));
       ++line_;
-      if (line.find_first_not_of(" \t\r") == std::string_view::npos) continue;
+      const std::size_t first = line.find_first_not_of(" \t\r");
+      if (first == std::string_view::npos || line[first] == '#') continue;
       const std::vector<std::string_view> cells = cells_of(line);
       if (columns_ == 0) {
         read_head(cells);
@@ -104,11 +119,15 @@ class CsvReader {
   }
 
   void read_head(const std::vector<std::string_view>& cells) {
+    if (cells.size() == 1 && cells.front().find_first_of(";\t") != std::string_view::npos)
+      throw fault("the columns of a CSV have commas between them");
     columns_ = cells.size();
     const std::vector<TokenField>& fields = stream_.shape.format.all();
     fields_.assign(fields.size(), kNone);
     for (std::size_t i = 0; i < cells.size(); ++i) {
       if (cells[i] == "cycle") cycle_ = i;
+      if (cells[i] == "valid") valid_ = i;
+      if (cells[i] == "ready") ready_ = i;
       if (cells[i] == "data" || cells[i] == stream_.name || cells[i] == stream_.port) data_ = i;
       for (std::size_t f = 0; f < fields.size(); ++f) {
         if (cells[i] == fields[f].name) fields_[f] = i;
@@ -128,10 +147,11 @@ class CsvReader {
   void read_token(const std::vector<std::string_view>& cells, Dump& dump) const {
     if (cells.size() != columns_)
       throw fault(fmt::format("{} columns in place of {}", cells.size(), columns_));
+    if (!is_set(valid_, cells) || !is_set(ready_, cells)) return;
     if (cycle_ != kNone) dump.cycles.push_back(number(cells[cycle_]));
     if (data_ != kNone) {
       std::string_view digits = cells[data_];
-      if (digits.substr(0, 2) == "0x" || digits.substr(0, 2) == "0X") digits.remove_prefix(2);
+      if (has_prefix(digits)) digits.remove_prefix(2);
       if (digits.empty()) throw fault("no data");
       const std::string wrong = dump.words.append_hex(digits.data(), digits.data() + digits.size());
       if (!wrong.empty()) throw fault(wrong);
@@ -154,11 +174,19 @@ class CsvReader {
     }
   }
 
+  // Whether this column, if there is one, says that the row is a token.
+  bool is_set(std::size_t column, const std::vector<std::string_view>& cells) const {
+    if (column == kNone || cells[column] == "1") return true;
+    if (cells[column] == "0") return false;
+    throw fault(fmt::format("{} = {} is neither 0 nor 1", column == valid_ ? "valid" : "ready",
+                            excerpt(cells[column])));
+  }
+
   std::int64_t number(std::string_view cell) const {
     const bool is_negative = !cell.empty() && cell.front() == '-';
     std::string_view digits = cell.substr(is_negative ? 1 : 0);
     int base = 10;
-    if (digits.substr(0, 2) == "0x" || digits.substr(0, 2) == "0X") {
+    if (has_prefix(digits)) {
       digits.remove_prefix(2);
       base = 16;
     }
@@ -175,25 +203,30 @@ class CsvReader {
   const VectorStream& stream_;
   std::size_t line_ = 0;
   std::size_t columns_ = 0;
-  std::size_t cycle_ = kNone, data_ = kNone;
+  std::size_t cycle_ = kNone, data_ = kNone, valid_ = kNone, ready_ = kNone;
   std::vector<std::size_t> fields_;
 };
 
-// A VCD begins with a keyword; the first line of a CSV has a comma, or one name.
+// A VCD begins with a keyword; the first line of a CSV, behind lines of remarks (#), has a comma, or one
+// name, or what others separate columns by.
 bool is_vcd(std::string_view text) {
   const std::size_t first = text.find_first_not_of(" \t\r\n");
   return first != std::string_view::npos && text[first] == '$';
 }
 
 bool is_csv(std::string_view text, const VectorStream& stream) {
+  while (!text.empty() && text.front() == '#')
+    text.remove_prefix(std::min(text.find('\n'), text.size() - 1) + 1);
   const std::string_view line = text.substr(0, text.find('\n'));
   if (line.find("//") != std::string_view::npos) return false;
   const std::vector<std::string_view> cells = cells_of(line);
   if (cells.size() > 1) return true;
+  // A name of a column, alone or with others behind what is no comma.
+  const std::string_view name = cells.front().substr(0, cells.front().find_first_of(";\t"));
   const std::vector<TokenField>& fields = stream.shape.format.all();
-  return cells.front() == "data" || cells.front() == stream.name || cells.front() == stream.port ||
+  return name == "data" || name == "cycle" || name == stream.name || name == stream.port ||
          std::any_of(fields.begin(), fields.end(),
-                     [&](const TokenField& field) { return cells.front() == field.name; });
+                     [&](const TokenField& field) { return name == field.name; });
 }
 
 }  // namespace
@@ -218,6 +251,8 @@ TokenWords read_vectors(const std::string& path, const VectorStream& stream) {
 
 Dump read_dump(const std::string& path, const VectorStream& stream, const DumpSignals& signals) {
   const std::string text = read_text_file(path);
+  if (text.find('\0') != std::string::npos)
+    throw UserError(fmt::format("{}: no text: a dump is a VCD, a CSV, or the text of $readmemh", path));
   if (is_vcd(text)) return tokens_of_vcd(text, path, stream, signals);
   if (is_csv(text, stream)) return CsvReader(path, stream).read(text);
   return {read_memh(text, path, stream.shape.format.width().size()), {}};

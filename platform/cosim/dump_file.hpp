@@ -27,8 +27,9 @@ TokenWords read_vectors(const std::string& path, const VectorStream& stream);
 
 /// A dump, by its content: a VCD, from whose waves the tokens are taken at rising clock edges with valid and
 /// ready (ready may be missing); a CSV, whose first line names the columns: a column for each field, in
-/// decimal, or one column data of hexadecimal words, and optionally cycle; else the text that $readmemh takes
-/// and $writememh writes. Plain or gzip. Throws UserError with the line.
+/// decimal or 0x, or one column data of hexadecimal words, and optionally cycle, and valid and ready, of
+/// which both must be 1 for a token; else the text that $readmemh takes and $writememh writes. Plain or gzip.
+/// Throws UserError with the line.
 Dump read_dump(const std::string& path, const VectorStream& stream, const DumpSignals& signals = {});
 
 }  // namespace parallax

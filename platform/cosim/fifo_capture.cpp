@@ -175,7 +175,7 @@ FifoCapture capture_of_vcd(const std::string& text, const std::string& path, con
     places.push_back(place);
   }
   FifoRecorder recorder(path, columns);
-  recorder.capture().two_clocks = watched[places.size() - 1]->id != watched[places.size() - 2]->id;
+  recorder.capture().two_clocks = watched[places.size() - 1]->ids != watched[places.size() - 2]->ids;
   FifoRecorder::Values values{};
   waves.read(watched, [&](std::int64_t time, const VcdWaves::Changes& changes) {
     FifoRecorder::Values after = values;

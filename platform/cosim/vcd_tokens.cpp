@@ -111,12 +111,23 @@ Dump tokens_of_vcd(const std::string& text, const std::string& path, const Vecto
   std::vector<const VcdWaves::Signal*> watched{signals.clock.signal, signals.data.signal,
                                                signals.valid.signal};
   if (signals.ready.signal != nullptr) watched.push_back(signals.ready.signal);
-  std::string data, valid, ready, clock;
+  const bool has_ready = signals.ready.signal != nullptr;
+  std::string data, valid, ready = has_ready ? "" : "1", clock;
   std::int64_t cycle = 0;
+  std::uint64_t valid_cycles = 0, ready_cycles = 0;
   waves.read(watched, [&](std::int64_t, const VcdWaves::Changes& changes) {
     const std::string edge = changes[0] != nullptr ? signals.clock.of(*changes[0]) : clock;
     if (edge == "1" && clock == "0") {
-      if (valid == "1" && (signals.ready.signal == nullptr || ready == "1")) {
+      valid_cycles += valid == "1";
+      ready_cycles += ready == "1";
+      // Before the first token it may be in reset, or not have begun.
+      const bool is_known = (valid == "0" || valid == "1") && (ready == "0" || ready == "1");
+      if (!is_known && dump.words.size() > 0) {
+        const bool is_ready = valid == "0" || valid == "1";
+        throw waves.fault(fmt::format("{} is unknown in cycle {}",
+                                      (is_ready ? signals.ready : signals.valid).signal->name, cycle));
+      }
+      if (valid == "1" && ready == "1") {
         if (const std::string wrong = dump.words.append_binary(data); !wrong.empty())
           throw waves.fault(wrong);
         dump.cycles.push_back(cycle);
@@ -126,9 +137,17 @@ Dump tokens_of_vcd(const std::string& text, const std::string& path, const Vecto
     clock = edge;
     if (changes[1] != nullptr) data = bits.of(*changes[1]);
     if (changes[2] != nullptr) valid = signals.valid.of(*changes[2]);
-    if (changes.size() > 3 && changes[3] != nullptr) ready = signals.ready.of(*changes[3]);
+    if (has_ready && changes[3] != nullptr) ready = signals.ready.of(*changes[3]);
   });
-  return dump;
+  if (dump.words.size() > 0) return dump;
+  if (cycle == 0) {
+    throw UserError(fmt::format("{}: {} never goes from 0 to 1; --signals clock=NAME names another clock",
+                                path, signals.clock.signal->name));
+  }
+  throw UserError(
+      fmt::format("{}: no token of {}: at {} edges of {}, {} was 1 at {}{}", path, stream.name, cycle,
+                  signals.clock.signal->name, signals.valid.signal->name, valid_cycles,
+                  has_ready ? fmt::format(", {} at {}", signals.ready.signal->name, ready_cycles) : ""));
 }
 
 }  // namespace parallax

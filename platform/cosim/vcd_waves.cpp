@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <charconv>
 #include <limits>
+#include <map>
 #include <unordered_map>
 
 namespace parallax {
@@ -44,9 +45,19 @@ const VcdWaves::Signal* VcdWaves::find(const std::string& name) const {
   const auto depth = [](const Signal& signal) {
     return std::count(signal.name.begin(), signal.name.end(), '.');
   };
-  const Signal* best = nullptr;
+  const Signal *best = nullptr, *other = nullptr;
   for (const Signal& signal : signals_) {
-    if (is_named(signal.name, name) && (best == nullptr || depth(signal) < depth(*best))) best = &signal;
+    if (!is_named(signal.name, name)) continue;
+    if (best == nullptr || depth(signal) < depth(*best)) {
+      best = &signal;
+      other = nullptr;
+    } else if (depth(signal) == depth(*best) && signal.ids != best->ids) {
+      other = &signal;
+    }
+  }
+  if (other != nullptr) {
+    throw UserError(fmt::format("{}: {} may be {} or {}: say so much of the name that it is one", path_, name,
+                                best->name, other->name));
   }
   return best;
 }
@@ -77,7 +88,10 @@ void VcdWaves::read_head() {
   for (;;) {
     const std::string_view word = next();
     if (word.empty()) throw fault("the file ends before $enddefinitions");
-    if (word == "$enddefinitions") return skip_to_end();
+    if (word == "$enddefinitions") {
+      skip_to_end();
+      return join_bits();
+    }
     if (word == "$scope") {
       next();  // its kind
       scopes.emplace_back(next());
@@ -96,7 +110,8 @@ void VcdWaves::read_head() {
 }
 
 void VcdWaves::read_variable(const std::vector<std::string>& scopes) {
-  next();  // its kind
+  if (next() == "port")
+    throw fault("an extended VCD of $dumpports, which is not read; $dumpvars makes a VCD");
   const std::string width(next());
   const std::string id(next());
   const std::string name(next());
@@ -106,7 +121,7 @@ void VcdWaves::read_variable(const std::vector<std::string>& scopes) {
   if (!is_number || name.empty()) throw fault("a $var without width, identifier and name");
   std::string full;
   for (const std::string& scope : scopes) full += scope + ".";
-  Signal signal{full, id, std::stoul(width)};
+  Signal signal{full, {id}, std::stoul(width)};
   // Some write the range behind the name without a blank.
   std::string range(more.substr(0, more.find(']') + 1));
   const std::size_t bracket = name.find('[');
@@ -121,6 +136,32 @@ void VcdWaves::read_variable(const std::vector<std::string>& scopes) {
   }
 }
 
+// Some simulators write the bits of a bus as signals of one bit, "data [3]", one behind the other.
+void VcdWaves::join_bits() {
+  std::map<std::string, std::map<std::size_t, std::string>> buses;  // bits by their index
+  for (const Signal& signal : signals_) {
+    if (signal.width == 1) buses[signal.name].emplace(signal.left, signal.ids.front());
+  }
+  const auto bits_of = [&](const Signal& signal) -> const std::map<std::size_t, std::string>* {
+    const auto bus = buses.find(signal.name);
+    if (signal.width != 1 || bus == buses.end() || bus->second.size() < 2) return nullptr;
+    const auto& bits = bus->second;
+    return bits.rbegin()->first - bits.begin()->first + 1 == bits.size() ? &bits : nullptr;
+  };
+  std::vector<Signal> joined;
+  for (Signal& signal : signals_) {
+    const auto* const bits = bits_of(signal);
+    if (bits == nullptr) {
+      joined.push_back(std::move(signal));
+    } else if (signal.left == bits->rbegin()->first) {
+      Signal bus{signal.name, {}, bits->size(), bits->rbegin()->first, bits->begin()->first};
+      for (auto bit = bits->rbegin(); bit != bits->rend(); ++bit) bus.ids.push_back(bit->second);
+      joined.push_back(std::move(bus));
+    }
+  }
+  signals_ = std::move(joined);
+}
+
 std::int64_t VcdWaves::time_of(std::string_view word) const {
   std::int64_t time = 0;
   const char* const end = word.data() + word.size();
@@ -131,25 +172,42 @@ std::int64_t VcdWaves::time_of(std::string_view word) const {
 
 void VcdWaves::read(const std::vector<const Signal*>& watched,
                     const std::function<void(std::int64_t, const Changes&)>& at_date) {
-  std::unordered_map<std::string_view, std::string> changed;  // by identifier, which several may share
-  for (const Signal* signal : watched) changed[signal->id];
-  bool any = false;
-  const auto change = [&](std::string_view id, std::string_view value) {
-    const auto found = changed.find(id);
-    if (found == changed.end()) return;
-    found->second = value;
-    any = true;
+  struct WatchedBits {
+    std::size_t of = 0;   // signal of those watched
+    std::size_t bit = 0;  // the highest is 0; of a signal that has one identifier: all of it
   };
+  std::unordered_map<std::string_view, std::vector<WatchedBits>>
+      parts;  // of each identifier, which several share
+  for (const Signal& signal : signals_) {
+    for (const std::string& id : signal.ids) parts[id];
+  }
+  std::vector<std::string> values(watched.size());
+  for (std::size_t i = 0; i < watched.size(); ++i) {
+    const std::vector<std::string>& ids = watched[i]->ids;
+    if (ids.size() > 1) values[i].assign(ids.size(), 'x');
+    for (std::size_t bit = 0; bit < ids.size(); ++bit) parts[ids[bit]].push_back({i, bit});
+  }
+  bool any = false;
   Changes changes(watched.size());
+  const auto change = [&](std::string_view id, std::string_view value) {
+    const auto found = parts.find(id);
+    if (found == parts.end()) throw fault(fmt::format("'{}' is no signal's identifier", excerpt(id)));
+    for (const WatchedBits& part : found->second) {
+      std::string& digits = values[part.of];
+      if (watched[part.of]->ids.size() > 1) {
+        digits[part.bit] = value.empty() ? 'x' : value.back();
+      } else {
+        digits = value;
+      }
+      changes[part.of] = &digits;
+      any = true;
+    }
+  };
   std::int64_t now = std::numeric_limits<std::int64_t>::min();
   const auto commit = [&] {
     if (!any) return;
-    for (std::size_t i = 0; i < watched.size(); ++i) {
-      const std::string& value = changed.find(watched[i]->id)->second;
-      changes[i] = value.empty() ? nullptr : &value;
-    }
     at_date(now, changes);
-    for (auto& [id, value] : changed) value.clear();
+    std::fill(changes.begin(), changes.end(), nullptr);
     any = false;
   };
   for (std::string_view word = next(); !word.empty(); word = next()) {

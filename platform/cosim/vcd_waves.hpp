@@ -17,7 +17,8 @@ class VcdWaves {
  public:
   struct Signal {
     std::string name;  ///< with its scopes, "bench.dut.out_left_data"
-    std::string id;
+    /// Of the whole of it, or, where the simulator wrote it bit by bit, of each bit, the highest first.
+    std::vector<std::string> ids;
     std::size_t width = 0;  ///< bits
     /// The index of the highest and of the lowest bit, as declared: [15:0], [0:15]; 0 of a signal of one bit.
     std::size_t left = 0;
@@ -33,8 +34,8 @@ class VcdWaves {
   VcdWaves(const std::string& text, const std::string& path);
 
   const std::vector<Signal>& signals() const { return signals_; }
-  /// The signal of this name, which may lack the outer scopes. Of several the outermost one, which comes
-  /// first of those as deep; null when there is none.
+  /// The signal of this name, which may lack the outer scopes; of several the outermost one. Null when there
+  /// is none. Throws UserError when there are others as deep.
   const Signal* find(const std::string& name) const;
 
   /// Goes through what the dates change, once. What one date changes is there after it: an edge of a clock
@@ -50,6 +51,7 @@ class VcdWaves {
   void skip_to_end();
   void read_head();
   void read_variable(const std::vector<std::string>& scopes);
+  void join_bits();
   std::int64_t time_of(std::string_view word) const;
 
   std::string_view text_;

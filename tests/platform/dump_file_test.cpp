@@ -59,6 +59,11 @@ TEST_F(DumpFile, TheTextOfReadmemh) {
 }
 
 TEST_F(DumpFile, DamagedText) {
+  EXPECT_EQ(error("0x1\n0x2\n"),
+            ": hexadecimal words have no 0x before them here: that x is an unknown digit");
+  EXPECT_EQ(error("0x123\n"),
+            ", line 1: hexadecimal words have no 0x before them here: that x is an unknown digit");
+  EXPECT_EQ(error(std::string("\0\1\2", 3)), ": no text: a dump is a VCD, a CSV, or the text of $readmemh");
   EXPECT_EQ(error("001\n1000\n"), ", line 2: '1000' has more than 12 bits");
   EXPECT_EQ(error("001\nhello\n"), ", line 2: 'hello' is no hexadecimal number");
   EXPECT_EQ(error("001\n@7 2\n"),
@@ -79,9 +84,14 @@ TEST_F(DumpFile, ACsvHasAColumnForEachFieldOrOneOfWords) {
   EXPECT_EQ(words("data\n0x0a2\nfff\n"), (Words{0xA2, 0xFFF}));
   EXPECT_EQ(words("row,column,code\n0,0,12\n0,1,0xfff\n"), (Words{12, 0xFFF}));
   EXPECT_TRUE(read("code\nx\n", census_code_format(12)).words.unknown(0));
+  EXPECT_EQ(words("# made by hand\ncode,valid,ready\n1,1,1\n2,0,1\n3,1,0\n# the last one\n4,1,1\n"),
+            (Words{1, 4}));
 }
 
 TEST_F(DumpFile, DamagedCsv) {
+  for (const char* head : {"cycle;code\n0;1\n", "code\tcycle\n1\t0\n"})
+    EXPECT_EQ(error(head), ", line 1: the columns of a CSV have commas between them");
+  EXPECT_EQ(error("code,valid\n0,yes\n"), ", line 2: valid = yes is neither 0 nor 1");
   EXPECT_EQ(
       error("row,value\n0,1\n"),
       ", line 1: no column code: the first line names the columns, one for each field of left_codes, or data "
@@ -139,13 +149,13 @@ TEST_F(DumpFile, PartsOfSignals) {
       "#0 0! b11000000000101101 # b10000000000110 % b1010000 & #5 1! #6 0! bx01101 # #7 1! #8 0! b1 #";
   const auto code_of = [&](const DumpSignals& signals, std::size_t bits) {
     const Dump dump = read(waves, census_code_format(bits), signals);
-    EXPECT_EQ(dump.words.size(), signals.ready.empty() ? 2U : 1U);
+    EXPECT_EQ(dump.words.size(), 2U);
     EXPECT_EQ(dump.words.unknown(dump.words.size() - 1), signals.data.rfind("bus[1", 0) == 0);
     return dump.words.raw(0, census_code_format(bits).all().front());
   };
   EXPECT_EQ(code_of({"bus[11:0]", "bus[0]", "", "ck"}, 12), 45U);
   EXPECT_EQ(code_of({"bus[15:4]", "bus[0]", "", "ck"}, 12), 0x802U);
-  EXPECT_EQ(code_of({"bus[3:0]", "bus[0]", "bus[16]", "ck"}, 4), 13U) << "of the second, ready is unknown";
+  EXPECT_EQ(code_of({"bus[3:0]", "bus[0]", "bus[2]", "ck"}, 4), 13U);
   EXPECT_EQ(code_of({"down[14:11]", "bus[0]", "", "ck"}, 4), 6U);
   EXPECT_EQ(code_of({"down[14:3]", "bus[0]", "", "ck"}, 12), 6U);
   EXPECT_EQ(code_of({"high[11:8]", "bus[0]", "", "ck"}, 4), 5U);
@@ -173,7 +183,53 @@ TEST_F(DumpFile, AnAxiStreamIsWholeBytes) {
             ": out_left_tdata has 16 bits, left_codes has 8");
 }
 
+// Some simulators write each bit of a bus as a signal of its own, in any order.
+TEST_F(DumpFile, ABusMayBeWrittenBitByBit) {
+  const std::string head = "$var wire 1 ! clk $end\n$var wire 1 $ out_left_valid $end\n";
+  const std::string bits =
+      "$var wire 1 a out_left_data [2] $end\n$var wire 1 b out_left_data[1] $end\n"
+      "$var wire 1 c out_left_data [0] $end\n$enddefinitions $end\n";
+  const TokenFormat code = census_code_format(3);
+  const Dump dump = read(head + bits + "#0 0! 1$ 1a 0b 1c #5 1! #6 0! 1b #7 1! #8 0! xa #9 1!", code);
+  ASSERT_EQ(dump.words.size(), 3U);
+  EXPECT_EQ(dump.words.raw(0, code.all().front()), 5U);
+  EXPECT_EQ(dump.words.raw(1, code.all().front()), 7U);
+  EXPECT_TRUE(dump.words.unknown(2));
+  EXPECT_EQ(error(head + "$var wire 1 a out_left_data [2] $end\n$var wire 1 b out_left_data [0] $end\n"
+                         "$enddefinitions $end\n",
+                  code),
+            ": out_left_data may be out_left_data or out_left_data: say so much of the name that it is one");
+}
+
+TEST_F(DumpFile, SignalsOfOneNameAreToldApart) {
+  const std::string waves =
+      "$var wire 1 ! clk $end\n$var wire 1 $ v $end\n$scope module a $end\n$var wire 12 # d $end\n"
+      "$upscope $end\n$scope module b $end\n$var wire 12 % d $end\n$upscope $end\n$scope module c $end\n"
+      "$var wire 1 ! clk $end\n$upscope $end\n$enddefinitions $end\n#0 0! 1$ b1 # b10 % #5 1!";
+  const TokenFormat code = census_code_format(12);
+  EXPECT_EQ(read(waves, code, {"a.d", "v", "", "clk"}).words.raw(0, code.all().front()), 1U);
+  EXPECT_EQ(read(waves, code, {"b.d", "v", "", "clk"}).words.raw(0, code.all().front()), 2U);
+  EXPECT_EQ(error_of([&] {
+              read(waves, code, {"d", "v", "", "clk"});
+            }),
+            (folder_ / "dump") + ": d may be a.d or b.d: say so much of the name that it is one");
+}
+
+TEST_F(DumpFile, WavesWithoutATokenSayWhy) {
+  EXPECT_EQ(error(std::string(kHead) + "#0\n0!\n#5\nx!\n"),
+            ": bench.clk never goes from 0 to 1; --signals clock=NAME names another clock");
+  EXPECT_EQ(error(std::string(kHead) + "#0 0! 1$ 0% #5 1! #6 0! 0$ #7 1!"),
+            ": no token of left_codes: at 2 edges of bench.clk, bench.out_left_valid was 1 at 1, "
+            "bench.out_left_ready at 0");
+  const std::string token = std::string(kHead) + "#0 0! x$ x% #5 1! #6 0! b1 # 1$ 1% #7 1! #8 0! ";
+  EXPECT_EQ(error(token + "x$\n#9 1!"), ", line 13: bench.out_left_valid is unknown in cycle 2");
+  EXPECT_EQ(error(token + "x%\n#9 1!"), ", line 13: bench.out_left_ready is unknown in cycle 2");
+}
+
 TEST_F(DumpFile, DamagedWaves) {
+  EXPECT_EQ(error("$var port [7:0] <0 d $end\n"),
+            ", line 1: an extended VCD of $dumpports, which is not read; $dumpvars makes a VCD");
+  EXPECT_EQ(error(std::string(kHead) + "#0\n1*\n"), ", line 13: '*' is no signal's identifier");
   EXPECT_EQ(error("$var wire 1"), ", line 1: a $var without width, identifier and name");
   EXPECT_EQ(error("$scope module x"), ", line 1: the file ends within a command, without $end");
   EXPECT_EQ(error("$timescale 1ns $end\n"), ", line 2: the file ends before $enddefinitions");
