@@ -54,8 +54,11 @@ std::string text(const FifoFinding& finding, const std::string& stream) {
   std::string out;
   for (const auto& [key, value] : finding.description->keys(stream))
     out += fmt::format("{} = {}\n", key, value);
-  return out + fmt::format("# exact for all {} tokens; {} were awaited by the reader, {} by the writer\n",
-                           counted(finding.tokens), counted(finding.awaited), counted(finding.refused));
+  out += fmt::format("# exact for all {} tokens; {} were awaited by the reader, {} by the writer\n",
+                     counted(finding.tokens), counted(finding.awaited), counted(finding.refused));
+  if (finding.description->two_clocks)
+    out += "# for clocks of these periods; simulate those of your design\n";
+  return out;
 }
 
 nlohmann::ordered_json to_json(const FifoFinding& finding, const std::string& stream) {

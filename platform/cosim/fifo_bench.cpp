@@ -24,8 +24,13 @@ module fifo_bench;
   integer cycle = 0;
 @clocks@  reg rst = 1'b@reset@;
 
-  reg write_want = 1'b0;
-  reg read_want = 1'b0;
+  // Not from the first moment on: an always @* of the FIFO waits for a change.
+  reg write_want;
+  reg read_want;
+  initial begin
+    #1 write_want = 1'b0;
+    read_want = 1'b0;
+  end
   wire @write_grant@;
   wire @read_grant@;
 @enables@

@@ -11,6 +11,8 @@ namespace parallax {
 namespace {
 
 constexpr std::int64_t kMostEdges = 64;  // as the configuration takes them
+// So many tokens must have been awaited, and slots: one alone, some description follows by chance.
+constexpr std::size_t kLeastAwaited = 3;
 
 // What one token or slot tells of an offset: it is `edges`, or at most that, or more than that.
 struct OffsetBound {
@@ -35,7 +37,7 @@ class FifoSearch {
         return none(grants, grants.fault, grants.fault_token, grants.fault_cycle, grants.fault_of_reader);
     }
     description_.two_clocks = grants_.front().two_clocks;
-    if (!find_start() || !find_write_to_read() || !find_depth()) return finding_;
+    if (!find_start() || !find_write_to_read() || !find_depth() || !is_seen_often()) return finding_;
     finding_.description = description_;
     return finding_;
   }
@@ -53,6 +55,15 @@ class FifoSearch {
     return false;
   }
 
+  bool is_seen_often() {
+    if (std::min(finding_.awaited, finding_.refused) >= kLeastAwaited) return true;
+    return lacks(
+        fmt::format("the reader awaited {} tokens of the empty FIFO, the writer {} slots of the full one: {} "
+                    "are needed of "
+                    "each; let both rest more often",
+                    finding_.awaited, finding_.refused, kLeastAwaited));
+  }
+
   bool find_start() {
     for (const FifoGrants& grants : grants_) {
       if (grants.two_clocks != description_.two_clocks) {
@@ -64,7 +75,9 @@ class FifoSearch {
       const std::optional<std::int64_t> first = grants.slots.front().first;
       if (!first) return lacks(fmt::format("{}: the FIFO never takes a token", grants.file));
       if (&grants == &grants_.front()) description_.not_ready_cycles = *first;
-      if (*first != description_.not_ready_cycles) {
+      if (description_.two_clocks) {  // it depends on how they stand to each other
+        description_.not_ready_cycles = std::max(description_.not_ready_cycles, *first);
+      } else if (*first != description_.not_ready_cycles) {
         none(grants,
              fmt::format("after reset it is not ready for {} cycles in {}, for {} in {}",
                          description_.not_ready_cycles, grants_.front().file, *first, grants.file),
@@ -101,6 +114,14 @@ class FifoSearch {
       offset = offset.value_or(bound.edges);
       return true;
     });
+    const bool is_stuck = each(
+        [](const FifoGrants& grants, std::size_t i, const OffsetBound&) { return !grants.tokens[i].first; });
+    if (is_stuck && finding_.tokens > 0) {
+      return lacks(fmt::format(
+          "of {} tokens that were written none could ever be read: is the reset over (its polarity), or does "
+          "the FIFO wait for an input that nothing drives, as the end of a packet",
+          finding_.tokens));
+    }
     if (!offset) {
       return lacks(
           "no token is ever awaited: the FIFO must run empty, so that it shows when the next token can be "

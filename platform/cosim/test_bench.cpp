@@ -55,6 +55,7 @@ constexpr const char* kHead =
 `endif
 
 module @stage@_tb;
+  // The circuit's inputs have no value before time 1, since an always @* of it waits for a change.
   reg clk = 1'b0;
   reg rst = 1'b1;
   always #5 clk = ~clk;
@@ -94,9 +95,14 @@ constexpr const char* kStalls = R"(
 constexpr const char* kInput = R"(  reg @range@ @port@_words [0:@tokens@ - 1];
   reg @range@ @port@_sum;
   reg @range@ @port@_data;
-  reg @port@_valid = 1'b0;
-  reg @port@_first = 1'b0;
-  reg @port@_last = 1'b0;
+  reg @port@_valid;
+  reg @port@_first;
+  reg @port@_last;
+  initial begin
+    #1 @port@_valid = 1'b0;
+    @port@_first = 1'b0;
+    @port@_last = 1'b0;
+  end
   wire @port@_ready;
   integer @port@_next = 0;   // token to be offered
   integer @port@_taken = 0;  // tokens that the circuit has
@@ -129,7 +135,8 @@ constexpr const char* kOutput = R"(  reg @range@ @port@_words [0:@tokens@ - 1];
   reg @range@ @port@_sum;
   wire @range@ @port@_data;
   wire @port@_valid;
-  reg @port@_ready = 1'b0;
+  reg @port@_ready;
+  initial #1 @port@_ready = 1'b0;
   integer @port@_taken = 0;
   integer @port@_wrong = 0;
   integer @port@_file = 0;

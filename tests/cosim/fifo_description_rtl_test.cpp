@@ -94,7 +94,8 @@ TEST_F(FifoBench, FindsWhatARegisterSliceIs) {
   for (const Circuit& circuit :
        std::vector<Circuit>{{"fifo_register_slice", "TYPE=0", "free", 1, 1, 0, 1},
                             {"fifo_register_slice", "TYPE=1", "registered", 1, 1, 1, 1},
-                            {"fifo_register_slice", "TYPE=2", "registered", 2, 1, 1, 1}}) {
+                            {"fifo_register_slice", "TYPE=2", "registered", 2, 1, 1, 1},
+                            {"fifo_next_state", "", "registered", 1, 1, 1}}) {
     simulate(circuit.module, parameters(circuit));
     expect(described(), circuit);
   }

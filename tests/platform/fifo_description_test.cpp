@@ -193,6 +193,27 @@ TEST(FifoDescription, SaysWhichStallIsMissing) {
             "reader rest for 5 cycles while the FIFO is full, then read one token and rest again");
 }
 
+TEST(FifoDescription, SaysWhenNoTokenComesOut) {
+  EXPECT_EQ(
+      reason({capture_of("mmm.", "....")}),
+      "stalls: of 3 tokens that were written none could ever be read: is the reset over (its polarity), or "
+      "does the FIFO wait for an input that nothing drives, as the end of a packet");
+}
+
+// Of one full FIFO many descriptions are right.
+TEST(FifoDescription, IsNotFoundInWhatIsSeenTwice) {
+  std::string writes, reads;
+  for (int i = 0; i < 2; ++i) {
+    writes += "mw";
+    reads += ".m";
+  }
+  EXPECT_EQ(
+      reason({capture_of(writes + "m", reads + ".")}),
+      "stalls: the reader awaited 2 tokens of the empty FIFO, the writer 2 slots of the full one: 3 are "
+      "needed of each; let both rest more often");
+  EXPECT_TRUE(describe_fifo({capture_of(writes + "mwm", reads + ".m.")}).description);
+}
+
 TEST(FifoDescription, SaysWhenARefusedSlotIsNotConstant) {
   const FifoFinding finding = describe_fifo({capture_of("m.m..g", ".m.m..")});
   EXPECT_EQ(finding.reason,
