@@ -30,9 +30,9 @@ CircuitInput::CircuitInput(const CircuitPort& port, std::uint64_t seed)
       pass_flush_(port.pass_flush()),
       stalls_(port.options.stall, seed) {}
 
-bool CircuitInput::offer(Cycles cycle) {
+bool CircuitInput::offer(Cycles cycle, std::uint64_t paced) {
   const bool there = flush_ > 0 || (stream().read_date_known() && stream().readable_at() <= cycle);
-  if (there && !offered_) offered_ = cycle >= next_ && !stalls_.next();
+  if (there && !offered_) offered_ = paced >= next_ && !stalls_.next();
   if (!offered_ || loaded_) return false;
   load();
   return true;
@@ -66,7 +66,7 @@ void CircuitInput::load() {
   set_if_there(port_.pins.group, token % port_.stream.shape.tokens_per_pixel);
 }
 
-bool CircuitInput::take(Cycles cycle, bool stands) {
+bool CircuitInput::take(Cycles cycle, std::uint64_t paced, bool stands) {
   const PinBits& ready = port_.pins.ready;
   const bool wanted = !stands && (!ready || ready.any());
   if (!offered_) {
@@ -75,7 +75,7 @@ bool CircuitInput::take(Cycles cycle, bool stands) {
   }
   if (!wanted || !presented_) return false;
   offered_ = loaded_ = false;
-  next_ = cycle + Cycles(static_cast<std::int64_t>(port_.options.interval));
+  next_ = paced + port_.options.interval;
   if (flush_ > 0) {
     --flush_;
     return true;

@@ -52,12 +52,13 @@ class CircuitInput {
   /// Puts what there is in this cycle on the pins; whether it is a token that was not there before. A token
   /// whose value comes later than its date, from stages that work on whole rows behind another circuit, has
   /// the recorded one.
-  bool offer(Cycles cycle);
+  /// `paced`: cycles so far, without those in which the circuit's clock stood for want of room.
+  bool offer(Cycles cycle, std::uint64_t paced);
   bool offered() const { return offered_; }
   /// Drives valid: `all`: whether there is a token at each input that passes together with this one.
   void present(bool all);
   /// Whether it was taken, the circuit's clock standing still or not.
-  bool take(Cycles cycle, bool stands);
+  bool take(Cycles cycle, std::uint64_t paced, bool stands);
 
   std::uint64_t tokens_begun() const { return tokens_ + (offered_ && flush_ == 0 ? 1 : 0); }
   /// What it waits for.
@@ -77,7 +78,7 @@ class CircuitInput {
   bool presented_ = false;    // valid is 1
   bool loaded_ = false;       // its bits are on the pins
   bool comes_late_ = false;   // its value
-  Cycles next_{0};            // earliest cycle of the next one
+  std::uint64_t next_ = 0;    // of the cycles that pace it: the earliest of the next one
   Cycles starved_{0};         // cycles in which it was wanted and not there
   std::vector<std::uint64_t> bits_;
 };

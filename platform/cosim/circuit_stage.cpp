@@ -199,10 +199,12 @@ bool CircuitStage::can_run() const {
   for (const auto& input : inputs_) {
     if (lacks_token(*input)) return false;
   }
-  for (const auto& output : outputs_) {
-    if (lacks_room(*output)) return false;
-  }
-  return true;
+  return has_room();
+}
+
+bool CircuitStage::has_room() const {
+  return std::none_of(outputs_.begin(), outputs_.end(),
+                      [](const auto& output) { return lacks_room(*output); });
 }
 
 bool CircuitStage::lacks_token(const CircuitInput& input) const {
@@ -222,7 +224,7 @@ void CircuitStage::step() {
   ++clocked_;
   watch_->at(cycle_);
   for (const auto& input : inputs_) {
-    if (input->offer(cycle_)) due_ = cycle_;
+    if (input->offer(cycle_, paced_)) due_ = cycle_;
   }
   for (const auto& output : outputs_) output->make_ready(cycle_);
   for (const auto& inputs : joined_inputs_) {
@@ -247,12 +249,13 @@ void CircuitStage::step() {
   // What is written was there before the edge, as what is read is.
   const std::uint64_t frames = begun();
   for (const auto& output : outputs_) moved |= output->put(cycle_, stands, frames);
-  for (const auto& input : inputs_) moved |= input->take(cycle_, stands);
+  for (const auto& input : inputs_) moved |= input->take(cycle_, paced_, stands);
   if (moved) moved_ = cycle_;
   for (const auto& output : outputs_) {
     if (!stands && !output->port().pins.valid && is_behind(*output)) output->drop();
   }
   if (!stands && ++steps_ == of_pass_) steps_ = 0;
+  if (has_room()) ++paced_;
   if (stands && pins_.enable) {
     pins_.enable.set(0);
     circuit_.evaluate();

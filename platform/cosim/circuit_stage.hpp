@@ -84,6 +84,7 @@ class CircuitStage final : public sc_core::sc_module, public Actor, public Circu
   void wait_for_dates();
   void step();
   bool can_run() const;
+  bool has_room() const;
   bool lacks_token(const CircuitInput& input) const;
   bool is_behind(const CircuitOutput& output) const;
   static bool lacks_room(const CircuitOutput& output);
@@ -114,6 +115,7 @@ class CircuitStage final : public sc_core::sc_module, public Actor, public Circu
   std::vector<std::vector<CircuitOutput*>> joined_outputs_;
   std::vector<ReadyProbe> probes_;  // of each of these, where sides are stalled
   std::uint64_t steps_ = 0;         // of a circuit without valid at its outputs, in this pass
+  std::uint64_t paced_ = 0;         // cycles in which its clock did not stand for want of room
   std::uint64_t of_pass_ = 0;       // of these, one pass over the image or a tile
   bool needs_all_ = false;          // an output has no valid: there is a step only with a token at each input
   Cycles cycle_{0};                 // the next one

@@ -17,7 +17,7 @@ constexpr const char* kCensus =
     "--circuit census=circuit.so ";
 
 // A census of 3x1 pixels of two images at once: code i of pixel i is there when the next pixel pair comes.
-constexpr const char* kRowCensus = R"(
+const std::string kRowCensus = R"(
   static unsigned past[2], here[2];
   static bool starts = false, ends = false;
   static unsigned beat = 0;
@@ -44,13 +44,13 @@ constexpr const char* kBuses =
 
 class CircuitPins : public ::testing::Test {
  protected:
-  void make_census(bool has_ready) const {
+  void make_census(bool has_ready, const std::string& more = "") const {
     make_cpp_circuit(
         program, "circuit",
         std::string("IN(clk, 1) IN(pixels, 18) IN(valid_in, 1) OUT(codes, 4) OUT(valid_out, 1) ") +
             (has_ready ? "OUT(ready_o, 1)\nconstexpr bool kHasReady = true;"
                        : "\nstatic int ready_o;\nconstexpr bool kHasReady = false;"),
-        kRowCensus);
+        kRowCensus + more);
   }
   void expect_equal(const std::string& options) const {
     const Outcome outcome = program(kCensus + std::string(kBuses) + options);
@@ -74,6 +74,20 @@ TEST_F(CircuitPins, PortsThatShareReadyPassTogether) {
   make_census(true);
   expect_equal("");
   expect_equal("--circuit-stall 400");
+}
+
+// A circuit that needs an edge of its own between tokens has it also where its clock stood in the meantime.
+TEST_F(CircuitPins, AnIntervalIsOfTheCircuitsEdges) {
+  make_census(false, R"(
+  static unsigned last_beat = 0;
+  if (beat - last_beat < 2) codes ^= 1;
+  last_beat = beat;
+)");
+  const Outcome outcome = program(kCensus + std::string(kBuses));
+  EXPECT_EQ(outcome.code, 1) << outcome.err << outcome.out;
+  expect_equal("--circuit-interval 2");
+  expect_equal("--circuit-interval 2 --circuit-stall 300");
+  expect_equal("--circuit-interval 2 --circuit-stall 300 -s streams.left_codes.depth=1");
 }
 
 // More zeros behind each frame than it needs push out results that belong to none.
