@@ -19,7 +19,7 @@ namespace {
 using Names = PinLookup::Names;
 
 // What a circuit may call a pin of this kind at a port; "" is the port's name alone.
-const Names& endings(const std::string& role) {
+const std::map<std::string, Names>& endings() {
   static const std::map<std::string, Names> all{
       {"data", {"data", "tdata", ""}},
       {"valid", {"valid", "tvalid", "vld", "en"}},
@@ -31,7 +31,7 @@ const Names& endings(const std::string& role) {
       {"column", {"column", "col", "x"}},
       {"group", {"group", "iteration"}},
   };
-  return all.at(role);
+  return all;
 }
 
 const Names kClocks{"clk", "clock", "aclk", "clk_i", "i_clk", "ap_clk", "sysclk"};
@@ -74,12 +74,16 @@ class Finder {
         throw UserError(fmt::format(
             "--circuit-pins: '{}' is not ROLE=PIN, as in_left.data=pixel or clock=clk", excerpt(word)));
       }
-      named_[word.substr(0, equals)] = word.substr(equals + 1);
+      const std::string role = full_role(word.substr(0, equals));
+      if (!named_.emplace(role, word.substr(equals + 1)).second)
+        throw UserError(fmt::format("--circuit-pins: {} is given twice", excerpt(role)));
     }
   }
 
   CircuitPins find(const CircuitOptions& options) {
     CircuitPins pins;
+    // First, so that no pin which the user sets is found to be something else by its name.
+    for (const std::string& word : options.constants) set_constant(word);
     if (const PinBits clock = take("clock", kClocks, true, 1)) {
       if (clock.pin().width != 1) throw wrong_width(clock, "clock", 1);
       pins.clock = &clock.pin();
@@ -92,7 +96,6 @@ class Finder {
     for (const VectorStream& stream : stage_.streams) pins.ports.push_back(port(stream));
     for (const bool is_input : {true, false}) share(pins.ports, is_input);
     pins.enable = take("enable", kEnables, true, 1);
-    for (const std::string& word : options.constants) set_constant(word);
     check_names();
     lookup_.check_inputs();
     return pins;
@@ -110,6 +113,25 @@ class Finder {
         stream.is_input ? Names{"in", "s_axis", "s", "i", "din"} : Names{"out", "m_axis", "m", "o", "dout"};
     all.insert(all.end(), usual.begin(), usual.end());
     return all;
+  }
+
+  // A port and what a pin is there may be called as the circuit calls them: "in.vld" is in_left.valid where
+  // that is the only input.
+  std::string full_role(const std::string& role) const {
+    const std::size_t dot = role.find('.');
+    if (dot == std::string::npos) return role;
+    const std::string port = role.substr(0, dot);
+    std::string kind = role.substr(dot + 1);
+    const auto is_in = [](const Names& names, const std::string& name) {
+      return !name.empty() && std::find(names.begin(), names.end(), name) != names.end();
+    };
+    for (const auto& [name, all] : endings()) {
+      if (is_in(all, kind)) kind = name;
+    }
+    for (const VectorStream& stream : stage_.streams) {
+      if (is_in(prefixes(stream), port)) return stream.port + "." + kind;
+    }
+    return role;
   }
 
   static std::string joined(const std::string& prefix, const std::string& ending) {
@@ -148,7 +170,7 @@ class Finder {
                                   circuit_.name(), found.pin().name, is_input ? "out" : "in", role,
                                   is_input ? "in" : "out"));
     }
-    lookup_.take(found);
+    lookup_.take(found, role);
     if (width == 0 || found.width() == width) return found;
     if (found.width() != found.pin().width || !is_padded_tdata(found.pin().name, found.width(), width))
       throw wrong_width(found, role, width);
@@ -158,7 +180,7 @@ class Finder {
   Names names_at(const VectorStream& stream, const std::string& role) const {
     Names names;
     for (const std::string& prefix : prefixes(stream)) {
-      for (const std::string& ending : endings(role)) names.push_back(joined(prefix, ending));
+      for (const std::string& ending : endings().at(role)) names.push_back(joined(prefix, ending));
     }
     return names;
   }
@@ -200,14 +222,14 @@ class Finder {
   PinBits mark_at(const VectorStream& stream, const std::string& role) {
     if (named_.count(stream.port + "." + role) > 0) return take_at(stream, role, false, 1);
     roles_.push_back(stream.port + "." + role);
-    return mark_of(lookup_.find(names_at(stream, role), false));
+    return mark_of(lookup_.find(names_at(stream, role), false), roles_.back());
   }
 
   // A tuser may be wider: its lowest bit is the start of frame.
-  PinBits mark_of(const parallax_pin* pin) {
+  PinBits mark_of(const parallax_pin* pin, const std::string& role) {
     if (pin == nullptr || (pin->width > 1 && !ends_with(pin->name, "user"))) return {};
     const PinBits mark(*pin, 0, 1);
-    lookup_.take(mark);
+    lookup_.take(mark, role);
     return mark;
   }
 
@@ -250,7 +272,7 @@ class Finder {
         if (ports[i].is_input != is_input || is_given_up(ports[i].port + "." + role)) continue;
         ports[i].*of = PinBits(*pin);
         if (counts) check_counter(ports[i].*of, stage_.streams[i], role);
-        lookup_.take(PinBits(*pin));
+        lookup_.take(PinBits(*pin), ports[i].port + "." + role);
       }
     };
     share_one("valid", &PortPins::valid, is_input);
@@ -317,7 +339,7 @@ class Finder {
       throw UserError(fmt::format("--circuit-set {}: pin {} has {}, which do not hold it", excerpt(word),
                                   name, bits_text(found)));
     }
-    lookup_.take(found);
+    lookup_.take(found, "--circuit-set " + excerpt(word));
     found.set(value);
   }
 

@@ -4,12 +4,25 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "platform/cosim/nearest_or_all.hpp"
 #include "platform/cosim/signal_bits.hpp"
 #include "tlm/error.hpp"
 
 namespace parallax {
+namespace {
+
+// Whether ports may have one pin for both: what is the same of both, and is no data.
+bool may_share(const std::string& one, const std::string& other) {
+  static const std::set<std::string> of_all{"valid", "ready", "first",  "last",
+                                            "keep",  "row",   "column", "group"};
+  const auto kind = [](const std::string& role) { return role.substr(role.find('.') + 1); };
+  return kind(one) == kind(other) && of_all.count(kind(one)) > 0;
+}
+
+}  // namespace
+
 const parallax_pin* PinLookup::pin(const std::string& name) const {
   for (const parallax_pin& each : circuit_.pins()) {
     if (name == each.name) return &each;
@@ -43,33 +56,40 @@ PinBits PinLookup::named(const std::string& word, const std::string& option) con
 const parallax_pin* PinLookup::find(const Names& names, std::optional<bool> is_input) const {
   for (const std::string& name : names) {
     const parallax_pin* const found = pin(name);
-    if (found == nullptr || taken_.count(found) > 0) continue;
+    if (found == nullptr || roles_.count(found) > 0) continue;
     if (!is_input || (found->is_input != 0) == *is_input) return found;
   }
   return nullptr;
 }
 
-void PinLookup::take(const PinBits& bits) {
-  std::vector<bool>& taken = taken_[&bits.pin()];
-  if (taken.empty()) {
-    taken.resize(bits.pin().width);
+void PinLookup::take(const PinBits& bits, const std::string& role) {
+  std::vector<std::string>& roles = roles_[&bits.pin()];
+  if (roles.empty()) {
+    roles.resize(bits.pin().width);
     if (bits.pin().is_input != 0) PinBits(bits.pin()).set(0);
   }
-  std::fill_n(taken.begin() + static_cast<std::ptrdiff_t>(bits.low()), bits.width(), true);
+  for (std::size_t bit = bits.low(); bit < bits.low() + bits.width(); ++bit) {
+    if (!roles[bit].empty() && !may_share(roles[bit], role)) {
+      throw UserError(
+          fmt::format("circuit {}: pin {} is {} and {}; --circuit-pins ROLE=PIN gives each its own",
+                      circuit_.name(), bits.name(), roles[bit], role));
+    }
+    roles[bit] = role;
+  }
 }
 
 void PinLookup::check_inputs() const {
   for (const parallax_pin& each : circuit_.pins()) {
     if (each.is_input == 0) continue;
-    const auto found = taken_.find(&each);
-    if (found == taken_.end()) {
+    const auto found = roles_.find(&each);
+    if (found == roles_.end()) {
       throw UserError(fmt::format(
           "circuit {}: nothing drives the input {} of {} bit{}; --circuit-pins ROLE={} says what it is, "
           "--circuit-set {}=VALUE what it is to be",
           circuit_.name(), each.name, each.width, each.width == 1 ? "" : "s", each.name, each.name));
     }
-    const std::vector<bool>& bits = found->second;
-    const auto open = std::find(bits.begin(), bits.end(), false);
+    const std::vector<std::string>& bits = found->second;
+    const auto open = std::find(bits.begin(), bits.end(), "");
     if (open == bits.end()) continue;
     const auto bit = open - bits.begin();
     throw UserError(

@@ -26,8 +26,10 @@ class PinLookup {
   /// The first of these pins that there is and that has no use yet; with a direction, that runs this way.
   const parallax_pin* find(const Names& names, std::optional<bool> is_input = std::nullopt) const;
 
-  /// These bits have a use. Bits of an input that nobody sets later are 0.
-  void take(const PinBits& bits);
+  /// These bits have this use. Bits of an input that nobody sets later are 0. Throws UserError when they have
+  /// another: what ports share is their handshake and what stands beside the data ("in_left.valid" and
+  /// "in_right.valid").
+  void take(const PinBits& bits, const std::string& role);
 
   /// Throws UserError when bits of an input have no use: they would be 0 for ever, and the user would not
   /// know.
@@ -37,7 +39,7 @@ class PinLookup {
   const parallax_pin* pin(const std::string& name) const;
 
   const Circuit& circuit_;
-  std::map<const parallax_pin*, std::vector<bool>> taken_;  // bit by bit
+  std::map<const parallax_pin*, std::vector<std::string>> roles_;  // of each bit; empty: none
 };
 
 }  // namespace parallax

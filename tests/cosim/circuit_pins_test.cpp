@@ -76,6 +76,23 @@ TEST_F(CircuitPins, PortsThatShareReadyPassTogether) {
   expect_equal("--circuit-stall 400");
 }
 
+// A pin that the user sets is not found by its name.
+TEST_F(CircuitPins, WhatIsSetIsNotDriven) {
+  make_cpp_circuit(program, "circuit",
+                   "IN(clk, 1) IN(din, 12) IN(din_valid, 1) IN(din_sof, 1) OUT(dout, 12) OUT(dout_valid, 1)",
+                   "dout = din_sof ? 1 : din; dout_valid = din_valid;");
+  const std::string run =
+      "run --size 32x16 --timing-frames 1 --no-verdict -s noise_reduction.enabled=false --circuit "
+      "noise_reduction=circuit.so ";
+  EXPECT_EQ(program(run).code, 1) << "a start of frame came";
+  EXPECT_EQ(program(run + "--circuit-set din_sof=0").code, 0);
+  // As the circuit calls them.
+  EXPECT_EQ(
+      program(run + "--circuit-set din_sof=0 --circuit-pins in.data=din --circuit-pins din.vld=din_valid")
+          .code,
+      0);
+}
+
 // A circuit that needs an edge of its own between tokens has it also where its clock stood in the meantime.
 TEST_F(CircuitPins, AnIntervalIsOfTheCircuitsEdges) {
   make_census(false, R"(
@@ -184,6 +201,18 @@ INSTANTIATE_TEST_SUITE_P(
             "what it is, --circuit-set pixels[16]=VALUE what it is to be"},
         Refused{"Constant", "--circuit-pins in_right.data=pixels[15:8] --circuit-set pixels[17:16]=4",
                 "--circuit-set pixels[17:16]=4: pin pixels[17:16] has 2 bits, which do not hold it"},
+        Refused{"TwoRolesOfOnePin", "--circuit-pins in_right.data=pixels[7:0]",
+                "circuit circuit: pin pixels[7:0] is in_left.data and in_right.data; --circuit-pins ROLE=PIN "
+                "gives each its own"},
+        Refused{"OneRoleTwice", "--circuit-pins in_left.tdata=pixels[15:8]",
+                "--circuit-pins: in_left.data is given twice"},
+        Refused{"SetAndDriven", "--circuit-pins in_right.data=pixels[15:8] --circuit-set pixels[8]=1",
+                "circuit circuit: pin pixels[15:8] is --circuit-set pixels[8]=1 and in_right.data; "
+                "--circuit-pins ROLE=PIN gives each its own"},
+        Refused{
+            "ClockThatIsSet", "--circuit-pins in_right.data=pixels[15:8] --circuit-set clk=0",
+            "circuit circuit has no clock, such as clk, but a handshake at in_left; --circuit-pins clock=PIN "
+            "names it"},
         Refused{"Output", "--circuit-pins in_right.data=pixels[15:8] --circuit-set codes[1:0]=1",
                 "--circuit-set codes[1:0]=1: pin codes of circuit circuit is an output"}),
     [](const auto& each) { return std::string(each.param.name); });
