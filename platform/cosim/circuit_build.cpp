@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
@@ -223,6 +224,17 @@ std::string top_name(Words words, const fs::path& folder, const std::string& pre
   return prefix;
 }
 
+// The pins with somewhere to lie.
+void look_at(const std::vector<DeclaredPin>& pins, const std::string& top, const PinCheck& check) {
+  PinList list{top, {}};
+  std::vector<std::vector<std::uint64_t>> values;
+  for (const DeclaredPin& pin : pins) {
+    values.emplace_back((pin.width + 63) / 64);
+    list.pins.push_back({pin.name.c_str(), pin.is_input ? 1u : 0u, pin.width, values.back().data()});
+  }
+  check(list);
+}
+
 void check_there(const fs::path& file) {
   if (!fs::is_regular_file(file)) throw UserError(fmt::format("{} is no file", excerpt(file.string(), 300)));
 }
@@ -230,7 +242,7 @@ void check_there(const fs::path& file) {
 }  // namespace
 
 void build_circuit(const std::vector<fs::path>& sources, const CircuitOptions& options,
-                   const fs::path& library) {
+                   const fs::path& library, const PinCheck& check) {
   std::for_each(sources.begin(), sources.end(), check_there);
   const fs::path interface = interface_folder();
   check_writable(library);
@@ -263,7 +275,9 @@ void build_circuit(const std::vector<fs::path>& sources, const CircuitOptions& o
   if (pins.empty())
     throw UserError(fmt::format("{}: the circuit's top module has no pins", sources[0].string()));
   const fs::path source = folder.path() / "circuit.cpp";
-  std::ofstream(source) << unit(folder.path(), prefix, top_name(words, folder.path(), prefix), pins);
+  const std::string top = top_name(words, folder.path(), prefix);
+  if (check) look_at(pins, top, check);
+  std::ofstream(source) << unit(folder.path(), prefix, top, pins);
   const fs::path made = folder.path() / "circuit.so";
   run_tool({"g++", "-std=c++17", "-shared", "-fPIC", "-O2", "-fvisibility=hidden", "-w", "-DVL_USER_FINISH",
             "-DVL_USER_STOP", "-DVL_USER_FATAL", "-I" + folder.path().string(), "-I" + interface.string(),
@@ -275,7 +289,8 @@ void build_circuit(const std::vector<fs::path>& sources, const CircuitOptions& o
   if (failed) throw cannot_write(library, failed.message());
 }
 
-CircuitFile::CircuitFile(const std::vector<fs::path>& files, const CircuitOptions& options) {
+CircuitFile::CircuitFile(const std::vector<fs::path>& files, const CircuitOptions& options,
+                         const PinCheck& check) {
   for (const fs::path& file : files) {
     if (!fs::is_regular_file(file))
       throw UserError(fmt::format("--circuit: {} is no file", excerpt(file.string(), 300)));
@@ -286,7 +301,7 @@ CircuitFile::CircuitFile(const std::vector<fs::path>& files, const CircuitOption
   }
   BuildFolder folder;
   path_ = folder.path() / "circuit.so";
-  build_circuit(files, options, path_);
+  build_circuit(files, options, path_, check);
   folder_ = folder.keep();
 }
 

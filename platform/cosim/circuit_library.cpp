@@ -26,7 +26,7 @@ Circuit::Circuit(const std::filesystem::path& library, unsigned seed) {
   circuit_ = entry_->make(seed);
   unsigned number = 0;
   const parallax_pin* const pins = entry_->pins(circuit_, &number);
-  pins_.assign(pins, pins + number);
+  list_ = {entry_->name, {pins, pins + number}};
 }
 
 // The library stays: what it has registered with the process may be asked for when that ends.

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "platform/cosim/circuit/circuit.h"
+#include "platform/cosim/pin_list.hpp"
 
 namespace parallax {
 
@@ -23,7 +24,8 @@ class Circuit {
   Circuit& operator=(const Circuit&) = delete;
 
   const char* name() const { return entry_->name; }  ///< of its top module, or of its file
-  const std::vector<parallax_pin>& pins() const { return pins_; }
+  const std::vector<parallax_pin>& pins() const { return list_.pins; }
+  const PinList& list() const { return list_; }
   void evaluate() {
     count_call();
     entry_->evaluate(circuit_);
@@ -41,7 +43,7 @@ class Circuit {
   void* library_ = nullptr;
   const parallax_circuit* entry_ = nullptr;
   void* circuit_ = nullptr;
-  std::vector<parallax_pin> pins_;
+  PinList list_;
 };
 
 }  // namespace parallax

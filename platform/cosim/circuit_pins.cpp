@@ -2,71 +2,27 @@
 #include "platform/cosim/circuit_pins.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>
 #include <map>
+#include <utility>
 
+#include "platform/cosim/missing_pins.hpp"
 #include "platform/cosim/nearest_or_all.hpp"
 #include "platform/cosim/pin_lookup.hpp"
+#include "platform/cosim/pin_names.hpp"
 #include "platform/cosim/signal_bits.hpp"
 #include "tlm/error.hpp"
 
 namespace parallax {
 namespace {
 
-using Names = PinLookup::Names;
-
-// What a circuit may call a pin of this kind at a port; "" is the port's name alone.
-const std::map<std::string, Names>& endings() {
-  static const std::map<std::string, Names> all{
-      {"data", {"data", "tdata", ""}},
-      {"valid", {"valid", "tvalid", "vld", "en"}},
-      {"ready", {"ready", "tready", "rdy"}},
-      {"first", {"first", "sof", "tuser", "user"}},
-      {"last", {"last", "eol", "tlast"}},
-      {"keep", {"keep", "tkeep", "tstrb"}},
-      {"row", {"row", "y"}},
-      {"column", {"column", "col", "x"}},
-      {"group", {"group", "iteration"}},
-  };
-  return all;
-}
-
-const Names kClocks{"clk", "clock", "aclk", "clk_i", "i_clk", "ap_clk", "sysclk"};
-const Names kResets{"rst", "reset", "rst_i", "i_rst", "reset_i", "areset", "ap_rst", "arst"};
-const Names kLowResets{"rst_n", "reset_n", "rstn",   "resetn",  "aresetn", "rst_ni",
-                       "nrst",  "nreset",  "arst_n", "i_rst_n", "ap_rst_n"};
-const Names kEnables{"ce", "clken", "clk_en", "clock_enable", "aclken", "en", "enable", "clk_ena"};
-
-// What ports may call a pin that they share, or that the only port of its direction has.
-struct SharedNames {
-  Names of_inputs, of_outputs;
-};
-const SharedNames& shared(const std::string& role) {
-  static const std::map<std::string, SharedNames> all{
-      {"valid",
-       {{"in_valid", "valid_in", "i_valid", "valid_i", "s_axis_tvalid", "din_valid", "de", "valid"},
-        {"out_valid", "valid_out", "o_valid", "valid_o", "m_axis_tvalid", "dout_valid", "valid"}}},
-      {"ready",
-       {{"in_ready", "i_ready", "ready_o", "s_axis_tready", "din_ready", "ready"},
-        {"out_ready", "o_ready", "ready_i", "m_axis_tready", "dout_ready", "ready"}}},
-      {"first",
-       {{"in_first", "in_sof", "sof_in", "i_sof", "sof", "s_axis_tuser"},
-        {"out_first", "out_sof", "sof_out", "o_sof", "sof", "m_axis_tuser"}}},
-      {"last",
-       {{"in_last", "in_eol", "eol_in", "i_eol", "eol", "s_axis_tlast"},
-        {"out_last", "out_eol", "eol_out", "o_eol", "eol", "m_axis_tlast"}}},
-      {"row", {{"in_row", "in_y", "row", "y"}, {}}},
-      {"column", {{"in_column", "in_col", "in_x", "column", "col", "x"}, {}}},
-  };
-  return all.at(role);
-}
+using Names = PinNames;
 
 class Finder {
  public:
-  Finder(const Circuit& circuit, const VectorManifest& stage, const CircuitOptions& options)
+  Finder(const PinList& circuit, const VectorManifest& stage, const CircuitOptions& options)
       : circuit_(circuit), stage_(stage), lookup_(circuit) {
     for (const std::string& word : options.pins) {
       const std::size_t equals = word.find('=');
@@ -84,20 +40,20 @@ class Finder {
     CircuitPins pins;
     // First, so that no pin which the user sets is found to be something else by its name.
     for (const std::string& word : options.constants) set_constant(word);
-    if (const PinBits clock = take("clock", kClocks, true, 1)) {
+    if (const PinBits clock = take("clock", clock_names(), true, 1)) {
       if (clock.pin().width != 1) throw wrong_width(clock, "clock", 1);
       pins.clock = &clock.pin();
     }
-    pins.reset = take("reset", kResets, true, 1);
+    pins.reset = take("reset", reset_names(), true, 1);
     if (!pins.reset) {
-      pins.reset = take("reset_n", kLowResets, true, 1);
+      pins.reset = take("reset_n", low_reset_names(), true, 1);
       pins.reset_is_low = static_cast<bool>(pins.reset);
     }
     for (const VectorStream& stream : stage_.streams) pins.ports.push_back(port(stream));
     for (const bool is_input : {true, false}) share(pins.ports, is_input);
-    pins.enable = take("enable", kEnables, true, 1);
+    pins.enable = take("enable", enable_names(), true, 1);
     check_names();
-    lookup_.check_inputs();
+    check_missing(circuit_.name, stage_.stage, missing_, lookup_);
     return pins;
   }
 
@@ -125,7 +81,7 @@ class Finder {
     const auto is_in = [](const Names& names, const std::string& name) {
       return !name.empty() && std::find(names.begin(), names.end(), name) != names.end();
     };
-    for (const auto& [name, all] : endings()) {
+    for (const auto& [name, all] : pin_endings()) {
       if (is_in(all, kind)) kind = name;
     }
     for (const VectorStream& stream : stage_.streams) {
@@ -143,8 +99,26 @@ class Finder {
   }
 
   UserError wrong_width(const PinBits& bits, const std::string& role, std::size_t width) const {
-    return UserError(fmt::format("circuit {}: pin {} has {}; as {} it must have {}", circuit_.name(),
-                                 bits.name(), bits_text(bits), role, width));
+    return UserError(fmt::format("circuit {}: pin {} has {}; as {} it must have {}{}", circuit_.name,
+                                 bits.name(), bits_text(bits), role, width, equal_fields(bits, role)));
+  }
+
+  // Of a token of several equal fields, which a circuit may have padded or in another order.
+  std::string equal_fields(const PinBits& bits, const std::string& role) const {
+    for (const VectorStream& stream : stage_.streams) {
+      const std::vector<TokenField>& fields = stream.shape.format.all();
+      if (role != stream.port + ".data" || fields.size() < 2) continue;
+      const std::size_t width = fields[0].width;
+      if (std::any_of(fields.begin(), fields.end(),
+                      [width](const TokenField& field) { return field.width != width; }))
+        continue;
+      const std::size_t apart = std::max(bits.width() / fields.size(), width);
+      return fmt::format(
+          ": {} x {}, {} lowest; fields that lie otherwise: --circuit-pins {}.{}={}[{}:{}] ...",
+          fields.size(), width, fields[0].name, stream.port, fields[1].name, bits.pin().name,
+          bits.low() + apart + width - 1, bits.low() + apart);
+    }
+    return {};
   }
 
   // Whether the user says that no pin has this role.
@@ -166,9 +140,8 @@ class Finder {
     }
     if (!found) return found;
     if ((found.pin().is_input != 0) != is_input) {
-      throw UserError(fmt::format("circuit {}: pin {} is an {}put; as {} it must be an {}put",
-                                  circuit_.name(), found.pin().name, is_input ? "out" : "in", role,
-                                  is_input ? "in" : "out"));
+      throw UserError(fmt::format("circuit {}: pin {} is an {}put; as {} it must be an {}put", circuit_.name,
+                                  found.pin().name, is_input ? "out" : "in", role, is_input ? "in" : "out"));
     }
     lookup_.take(found, role);
     if (width == 0 || found.width() == width) return found;
@@ -180,7 +153,7 @@ class Finder {
   Names names_at(const VectorStream& stream, const std::string& role) const {
     Names names;
     for (const std::string& prefix : prefixes(stream)) {
-      for (const std::string& ending : endings().at(role)) names.push_back(joined(prefix, ending));
+      for (const std::string& ending : pin_endings().at(role)) names.push_back(joined(prefix, ending));
     }
     return names;
   }
@@ -192,12 +165,23 @@ class Finder {
     return take(stream.port + "." + role, names, is_input, width);
   }
 
+  // Whether the user says where fields of a token lie, and not where all of it does.
+  bool names_fields(const VectorStream& stream) const {
+    const auto names = [&](const std::string& field) { return named_.count(stream.port + "." + field) > 0; };
+    const std::vector<TokenField>& fields = stream.shape.format.all();
+    return !names("data") && std::any_of(fields.begin(), fields.end(),
+                                         [&](const TokenField& field) { return names(field.name); });
+  }
+
   PortPins port(const VectorStream& stream) {
     PortPins pins;
     pins.port = stream.port;
     pins.is_input = stream.is_input;
     const std::size_t width = stream.shape.format.width().size();
-    if (const PinBits whole = take_at(stream, "data", stream.is_input, width)) {
+    if (names_fields(stream)) {
+      roles_.push_back(stream.port + ".data");
+      pins.data = of_fields(stream);
+    } else if (const PinBits whole = take_at(stream, "data", stream.is_input, width)) {
       pins.data.push_back({{"", 0, width, false}, whole});
     } else {
       pins.data = of_fields(stream);
@@ -237,6 +221,7 @@ class Finder {
   std::uint64_t most_on(const VectorStream& stream, const std::string& role) const {
     const TokenShape& shape = stream.shape;
     const bool rows = shape.row_tokens > 0;
+    if (!rows && stream.frame_tokens == 0) return 0;  // not known before the model has run
     if (role == "group") return shape.tokens_per_pixel - 1;
     if (role == "row") return rows ? static_cast<std::uint64_t>(stage_.height) - 1 : 0;
     return (rows ? static_cast<std::uint64_t>(stage_.tile_width) : stream.frame_tokens) - 1;
@@ -245,7 +230,7 @@ class Finder {
   void check_counter(const PinBits& bits, const VectorStream& stream, const std::string& role) const {
     const std::uint64_t most = most_on(stream, role);
     if (!bits || bits.width() >= 64 || most >> bits.width() == 0) return;
-    throw UserError(fmt::format("circuit {}: pin {} has {}; as {}.{} it must hold {}", circuit_.name(),
+    throw UserError(fmt::format("circuit {}: pin {} has {}; as {}.{} it must hold {}", circuit_.name,
                                 bits.name(), bits_text(bits), stream.port, role, most));
   }
 
@@ -263,7 +248,7 @@ class Finder {
         return port.is_input == is_input && static_cast<bool>(port.*of);
       });
       if (any) return;
-      const SharedNames& names = shared(role);
+      const SharedNames& names = shared_names(role);
       const parallax_pin* const pin =
           lookup_.find(is_input ? names.of_inputs : names.of_outputs, pin_is_input);
       const bool counts = of == &PortPins::row || of == &PortPins::column;
@@ -300,21 +285,24 @@ class Finder {
 
   std::vector<PortPins::Data> of_fields(const VectorStream& stream) {
     std::vector<PortPins::Data> all;
+    std::vector<MissingPin> without;
     const auto& fields = stream.shape.format.all();
     for (const TokenField& field : fields) {
       Names names;
       for (const std::string& prefix : prefixes(stream)) names.push_back(prefix + "_" + field.name);
       const PinBits found = take(stream.port + "." + field.name, names, stream.is_input, field.width);
-      if (!found) break;
-      all.push_back({field, found});
+      if (found) {
+        all.push_back({field, found});
+      } else {
+        without.push_back({stream.port + "." + field.name, field.width, stream.is_input});
+      }
     }
-    if (all.size() == fields.size()) return all;
-    throw UserError(fmt::format(
-        "circuit {} has no pin for the {} {} of {} ({} bits), such as {}_data; it has {}: --circuit-pins "
-        "{}.data=PIN names it",
-        circuit_.name(), stream.is_input ? "input" : "output", stream.port, stage_.stage,
-        stream.shape.format.width().count(), stream.port,
-        excerpt(fmt::format("{}", fmt::join(lookup_.names(), ", ")), 400), stream.port));
+    if (all.empty()) {
+      missing_.push_back({stream.port + ".data", stream.shape.format.width().size(), stream.is_input});
+    } else {
+      missing_.insert(missing_.end(), without.begin(), without.end());
+    }
+    return all;
   }
 
   void set_constant(const std::string& word) {
@@ -333,7 +321,7 @@ class Finder {
     const PinBits found = lookup_.named(name, "--circuit-set " + excerpt(word));
     if (found.pin().is_input == 0) {
       throw UserError(fmt::format("--circuit-set {}: pin {} of circuit {} is an output", excerpt(word),
-                                  found.pin().name, circuit_.name()));
+                                  found.pin().name, circuit_.name));
     }
     if (found.width() < 64 && value >> found.width() != 0) {
       throw UserError(fmt::format("--circuit-set {}: pin {} has {}, which do not hold it", excerpt(word),
@@ -352,15 +340,16 @@ class Finder {
     }
   }
 
-  const Circuit& circuit_;
+  const PinList& circuit_;
   const VectorManifest& stage_;
   PinLookup lookup_;
+  std::vector<MissingPin> missing_;
   std::map<std::string, std::string> named_;  // pins by roles
   Names roles_;
 };
 
 // Where valid says when a result is there, nothing else can.
-void check_latency(const Circuit& circuit, const CircuitPins& pins, const CircuitOptions& options) {
+void check_latency(const PinList& circuit, const CircuitPins& pins, const CircuitOptions& options) {
   if (options.latency == 0) return;
   for (const PortPins& port : pins.ports) {
     if (!port.is_input && !port.valid) return;
@@ -368,7 +357,7 @@ void check_latency(const Circuit& circuit, const CircuitPins& pins, const Circui
   throw UserError(fmt::format(
       "--circuit-latency {}: circuit {} says itself when a result is there, by {}; leave it out, or "
       "--circuit-pins {}.valid= has it count edges; --circuit-flush sends tokens behind a frame",
-      options.latency, circuit.name(), pins.ports.back().valid.name(), pins.ports.back().port));
+      options.latency, circuit.name, pins.ports.back().valid.name(), pins.ports.back().port));
 }
 
 }  // namespace
@@ -390,14 +379,14 @@ std::vector<std::string> half_handshakes(const CircuitPins& pins) {
   return notes;
 }
 
-CircuitPins find_pins(const Circuit& circuit, const VectorManifest& stage, const CircuitOptions& options) {
+CircuitPins find_pins(const PinList& circuit, const VectorManifest& stage, const CircuitOptions& options) {
   CircuitPins pins = Finder(circuit, stage, options).find(options);
   for (const PortPins& port : pins.ports) {
     if (pins.clock == nullptr && (port.valid || port.ready)) {
       throw UserError(
           fmt::format("circuit {} has no clock, such as clk, but a handshake at {}; --circuit-pins clock=PIN "
                       "names it",
-                      circuit.name(), port.port));
+                      circuit.name, port.port));
     }
   }
   check_latency(circuit, pins, options);

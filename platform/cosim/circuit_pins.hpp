@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "modules/token_format.hpp"
-#include "platform/cosim/circuit_library.hpp"
 #include "platform/cosim/pin_bits.hpp"
+#include "platform/cosim/pin_list.hpp"
 #include "platform/cosim/vector_manifest.hpp"
 #include "platform/input/circuit_options.hpp"
 
@@ -53,9 +53,10 @@ struct CircuitPins {
 /// for all, a line each.
 std::vector<std::string> half_handshakes(const CircuitPins& pins);
 
-/// Finds them for the ports of a stage, and sets the constants. Throws UserError when a port has no pin, when
-/// a pin has another width than the tokens, does not hold what is counted on it, runs the other way, or is an
-/// input that nobody drives.
-CircuitPins find_pins(const Circuit& circuit, const VectorManifest& stage, const CircuitOptions& options);
+/// Finds them for the ports of a stage, and sets the constants; the list must outlive what is found. Throws
+/// UserError when a pin has another width than the tokens, does not hold what is counted on it or runs the
+/// other way; with all of them, when ports have no pin and inputs are driven by nobody. `stage` may be what
+/// is known before a token has passed.
+CircuitPins find_pins(const PinList& circuit, const VectorManifest& stage, const CircuitOptions& options);
 
 }  // namespace parallax

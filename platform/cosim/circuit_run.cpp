@@ -82,11 +82,14 @@ CircuitRun::CircuitRun(const std::vector<CircuitOptions>& circuits, bool shadow,
     files.push_back(std::move(of_it));
   }
   // What is cheap to get wrong comes before what takes long.
-  check_stages(config, model, stages(), interrupted);
+  const std::vector<VectorManifest> manifests = check_stages(config, model, stages(), interrupted);
+  if (manifests.empty()) return;  // interrupted
   for (std::size_t i = 0; i < circuits_.size(); ++i) {
     const CircuitOptions& options = *circuits_[i].options;
-    const CircuitFile library(files[i], options);
+    const PinCheck check = [&](const PinList& pins) { find_pins(pins, manifests[i], options); };
+    const CircuitFile library(files[i], options, check);
     circuits_[i].circuit = std::make_unique<Circuit>(library.path(), static_cast<unsigned>(options.seed));
+    check(circuits_[i].circuit->list());
   }
   record(config, model, interrupted);
   if (shadow_ && !interrupted()) run_shadows(config, model, interrupted);
@@ -107,7 +110,7 @@ void CircuitRun::record(const MachineConfig& config, const MachineInput& model,
   for (std::size_t i = 0; i < circuits_.size(); ++i) {
     Placed& placed = circuits_[i];
     placed.model = std::move(records[i]);
-    placed.pins = find_pins(*placed.circuit, placed.model.manifest, *placed.options);
+    placed.pins = find_pins(placed.circuit->list(), placed.model.manifest, *placed.options);
   }
   std::sort(circuits_.begin(), circuits_.end(),
             [](const Placed& a, const Placed& b) { return a.model.slot < b.model.slot; });

@@ -24,7 +24,7 @@ bool may_share(const std::string& one, const std::string& other) {
 }  // namespace
 
 const parallax_pin* PinLookup::pin(const std::string& name) const {
-  for (const parallax_pin& each : circuit_.pins()) {
+  for (const parallax_pin& each : circuit_.pins) {
     if (name == each.name) return &each;
   }
   return nullptr;
@@ -32,7 +32,7 @@ const parallax_pin* PinLookup::pin(const std::string& name) const {
 
 PinLookup::Names PinLookup::names() const {
   Names names;
-  for (const parallax_pin& each : circuit_.pins()) names.emplace_back(each.name);
+  for (const parallax_pin& each : circuit_.pins) names.emplace_back(each.name);
   return names;
 }
 
@@ -41,14 +41,14 @@ PinBits PinLookup::named(const std::string& word, const std::string& option) con
   if (!bits) throw UserError(fmt::format("{}: a pin is PIN, PIN[BIT] or PIN[HIGH:LOW]", option));
   const parallax_pin* const found = pin(bits->name);
   if (found == nullptr) {
-    throw UserError(fmt::format("{}: circuit {} has no such pin; {}", option, circuit_.name(),
+    throw UserError(fmt::format("{}: circuit {} has no such pin; {}", option, circuit_.name,
                                 nearest_or_all(bits->name, names())));
   }
   if (!bits->range) return PinBits(*found);
   const auto [high, low] = *bits->range;
   if (high >= found->width) {
     throw UserError(fmt::format("{}: pin {} of circuit {} has the bits {} to 0", option, bits->name,
-                                circuit_.name(), found->width - 1));
+                                circuit_.name, found->width - 1));
   }
   return PinBits(*found, low, high - low + 1);
 }
@@ -72,31 +72,32 @@ void PinLookup::take(const PinBits& bits, const std::string& role) {
     if (!roles[bit].empty() && !may_share(roles[bit], role)) {
       throw UserError(
           fmt::format("circuit {}: pin {} is {} and {}; --circuit-pins ROLE=PIN gives each its own",
-                      circuit_.name(), bits.name(), roles[bit], role));
+                      circuit_.name, bits.name(), roles[bit], role));
     }
     roles[bit] = role;
   }
 }
 
-void PinLookup::check_inputs() const {
-  for (const parallax_pin& each : circuit_.pins()) {
-    if (each.is_input == 0) continue;
+std::vector<PinBits> PinLookup::unused(bool is_input) const {
+  std::vector<PinBits> all;
+  for (const parallax_pin& each : circuit_.pins) {
+    if ((each.is_input != 0) != is_input) continue;
     const auto found = roles_.find(&each);
     if (found == roles_.end()) {
-      throw UserError(fmt::format(
-          "circuit {}: nothing drives the input {} of {} bit{}; --circuit-pins ROLE={} says what it is, "
-          "--circuit-set {}=VALUE what it is to be",
-          circuit_.name(), each.name, each.width, each.width == 1 ? "" : "s", each.name, each.name));
+      all.emplace_back(each);
+      continue;
     }
+    if (!is_input) continue;
     const std::vector<std::string>& bits = found->second;
-    const auto open = std::find(bits.begin(), bits.end(), "");
-    if (open == bits.end()) continue;
-    const auto bit = open - bits.begin();
-    throw UserError(
-        fmt::format("circuit {}: nothing drives bit {} of the input {}; --circuit-pins ROLE={}[{}] says what "
-                    "it is, --circuit-set {}[{}]=VALUE what it is to be",
-                    circuit_.name(), bit, each.name, each.name, bit, each.name, bit));
+    for (std::size_t low = 0; low < bits.size(); ++low) {
+      std::size_t end = low;
+      while (end < bits.size() && bits[end].empty()) ++end;
+      if (end == low) continue;
+      all.emplace_back(each, low, end - low);
+      low = end;
+    }
   }
+  return all;
 }
 
 }  // namespace parallax

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "platform/cosim/circuit_library.hpp"
 #include "platform/cosim/pin_bits.hpp"
+#include "platform/cosim/pin_list.hpp"
 
 namespace parallax {
 
@@ -16,7 +16,7 @@ class PinLookup {
  public:
   using Names = std::vector<std::string>;
 
-  explicit PinLookup(const Circuit& circuit) : circuit_(circuit) {}
+  explicit PinLookup(const PinList& circuit) : circuit_(circuit) {}
 
   Names names() const;
 
@@ -31,14 +31,13 @@ class PinLookup {
   /// "in_right.valid").
   void take(const PinBits& bits, const std::string& role);
 
-  /// Throws UserError when bits of an input have no use: they would be 0 for ever, and the user would not
-  /// know.
-  void check_inputs() const;
+  /// What has no use: of an input, bits that lie beside each other; outputs as a whole.
+  std::vector<PinBits> unused(bool is_input) const;
 
  private:
   const parallax_pin* pin(const std::string& name) const;
 
-  const Circuit& circuit_;
+  const PinList& circuit_;
   std::map<const parallax_pin*, std::vector<std::string>> roles_;  // of each bit; empty: none
 };
 

@@ -125,15 +125,23 @@ void simulate_to_end(const Machine& machine) {
     throw UserError(message(find_deadlock(machine)));
 }
 
-void check_stages(const MachineConfig& config, const MachineInput& input,
-                  const std::vector<std::string>& stages, const std::function<bool()>& interrupted) {
-  in_own_process(
+std::vector<VectorManifest> check_stages(const MachineConfig& config, const MachineInput& input,
+                                         const std::vector<std::string>& stages,
+                                         const std::function<bool()>& interrupted) {
+  const std::optional<std::string> text = in_own_process(
       [&] {
         const Machine machine("machine", config, input);
+        nlohmann::ordered_json all = nlohmann::ordered_json::array();
         for (const std::string& stage : stages) check_vectors(machine, stage, "--circuit");
-        return std::string();
+        for (const std::string& stage : stages) all.push_back(to_json(stage_manifest(machine, stage)));
+        return all.dump();
       },
       interrupted);
+  std::vector<VectorManifest> manifests;
+  if (!text) return manifests;
+  for (const nlohmann::ordered_json& tree : nlohmann::ordered_json::parse(*text))
+    manifests.push_back(vector_manifest(tree));
+  return manifests;
 }
 
 std::vector<StageRecord> record_stages(const MachineConfig& config, const MachineInput& input,

@@ -24,10 +24,11 @@ struct StageRecord {
   std::size_t slot = 0;         ///< of the pipeline that the stage stands in, 0 is the first upstream
 };
 
-/// Throws UserError when the machine has not all of these stages, or one whose tokens cannot be recorded;
-/// simulates nothing. `interrupted` as below.
-void check_stages(const MachineConfig& config, const MachineInput& input,
-                  const std::vector<std::string>& stages, const std::function<bool()>& interrupted);
+/// The stages, of which no token has passed: simulates nothing. None when `interrupted`, as below. Throws
+/// UserError when the machine has not all of them, or one whose tokens cannot be recorded.
+std::vector<VectorManifest> check_stages(const MachineConfig& config, const MachineInput& input,
+                                         const std::vector<std::string>& stages,
+                                         const std::function<bool()>& interrupted);
 
 /// The records of some stages, of one machine that processes `input.frames` frames with images, in a process
 /// of its own. None when `interrupted` (in_own_process) said yes, or when a circuit in the place of another

@@ -78,6 +78,21 @@ TEST_F(CircuitBuild, IsCalledByItsTopModule) {
       << outcome.out;
 }
 
+// What takes most of the time is not begun.
+TEST_F(CircuitBuild, LooksAtThePinsBeforeItCompiles) {
+  program.folder().write("c.sv",
+                         "module c(input clk, input [3:0] mode, output q); assign q = clk; endmodule\n");
+  write_tool("g++", "exit 1\n");
+  const std::string path = (program / "bin").string() + ":" + std::getenv("PATH");
+  expect_refused(
+      program("run --size 32x16 --no-verdict --timing-frames 1 --circuit noise_reduction=c.sv",
+              [path] { ::setenv("PATH", path.c_str(), 1); }),
+      "circuit c: noise_reduction has no pin for in_disparity.data (12 bits), out_disparity.data (12 "
+      "bits), such as in_disparity_data; nothing drives the input mode (4 bits); nothing reads the "
+      "output q (1 bit); --circuit-pins in_disparity.data=PIN names it; --circuit-pins ROLE=mode "
+      "says what it is, --circuit-set mode=VALUE what it is to be");
+}
+
 TEST_F(CircuitBuild, SaysWhereItCannotWrite) {
   expect_refused(build(kModule, "--out none/c.so"), "cannot write none/c.so: No such file or directory");
   expect_refused(build(kModule, "--out ."), "cannot write .: Is a directory");

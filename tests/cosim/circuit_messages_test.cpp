@@ -47,14 +47,24 @@ INSTANTIATE_TEST_SUITE_P(
     All, CircuitMisfit,
     ::testing::Values(
         Misfit{"NoInput", "IN(clk, 1) IN(pixel, 12) " + std::string(kOutput), "",
-               "circuit circuit has no pin for the input in_disparity of noise_reduction (12 bits), such as "
-               "in_disparity_data; it has clk, pixel, out_valid, out_data, out_ready: --circuit-pins "
-               "in_disparity.data=PIN names it"},
+               "circuit circuit: noise_reduction has no pin for in_disparity.data (12 bits), such as "
+               "in_disparity_data; nothing drives the input pixel (12 bits); --circuit-pins "
+               "in_disparity.data=PIN names it; --circuit-pins ROLE=pixel says what it is, --circuit-set "
+               "pixel=VALUE what it is to be"},
         Misfit{
             "NoOutput", kInput, "",
-            "circuit circuit has no pin for the output out_disparity of noise_reduction (12 bits), such as "
-            "out_disparity_data; it has clk, in_valid, in_data, in_ready: --circuit-pins "
-            "out_disparity.data=PIN names it"},
+            "circuit circuit: noise_reduction has no pin for out_disparity.data (12 bits), such as "
+            "out_disparity_data; no other output is there; --circuit-pins out_disparity.data=PIN names it"},
+        Misfit{"AllAtOnce", "IN(clk, 1) IN(pixel, 12) IN(mode, 3) IN(go, 1) OUT(flat, 12) OUT(busy, 1)",
+               "--circuit-set mode[1]=0",
+               "circuit circuit: noise_reduction has no pin for in_disparity.data (12 bits), "
+               "out_disparity.data (12 bits), such as in_disparity_data; nothing drives the inputs pixel (12 "
+               "bits), mode[0] (1 bit), mode[2] (1 bit), go (1 bit); nothing reads the outputs flat (12 "
+               "bits), busy (1 bit); --circuit-pins in_disparity.data=PIN names it; --circuit-pins "
+               "ROLE=pixel says what it is, --circuit-set pixel=VALUE what it is to be"},
+        Misfit{"NoInputAtAll", "IN(clk, 1) " + std::string(kOutput), "",
+               "circuit circuit: noise_reduction has no pin for in_disparity.data (12 bits), such as "
+               "in_disparity_data; no other input is there; --circuit-pins in_disparity.data=PIN names it"},
         Misfit{"InputAsOutput", "IN(clk, 1) OUT(in_data, 12) " + std::string(kOutput), "",
                "circuit circuit: pin in_data is an output; as in_disparity.data it must be an input"},
         Misfit{"OutputAsInput", std::string(kInput) + "IN(out_data, 12)", "",
@@ -62,7 +72,7 @@ INSTANTIATE_TEST_SUITE_P(
         Misfit{"Width", "IN(clk, 1) IN(in_data, 12) IN(in_valid, 2) " + std::string(kOutput), "",
                "circuit circuit: pin in_valid has 2 bits; as in_disparity.valid it must have 1"},
         Misfit{"Undriven", both("IN(mode, 3)"), "",
-               "circuit circuit: nothing drives the input mode of 3 bits; --circuit-pins ROLE=mode says what "
+               "circuit circuit: nothing drives the input mode (3 bits); --circuit-pins ROLE=mode says what "
                "it is, --circuit-set mode=VALUE what it is to be"},
         Misfit{"NoClock", "IN(in_valid, 1) IN(in_data, 12) OUT(out_data, 12)", "",
                "circuit circuit has no clock, such as clk, but a handshake at in_disparity; --circuit-pins "
@@ -80,7 +90,7 @@ INSTANTIATE_TEST_SUITE_P(
                "in_valid, "
                "in_data, in_ready, out_valid, out_data, out_ready"},
         Misfit{"NoPinOfARole", both(), "--circuit-pins in_disparity.valid=",
-               "circuit circuit: nothing drives the input in_valid of 1 bit; --circuit-pins ROLE=in_valid "
+               "circuit circuit: nothing drives the input in_valid (1 bit); --circuit-pins ROLE=in_valid "
                "says what "
                "it is, --circuit-set in_valid=VALUE what it is to be"},
         Misfit{"NoRoleOfThePort", both(), "--circuit-pins valid_in=",

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which bits of which pin are what: parts of buses, handshakes that ports share, padded AXI streams.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -157,6 +158,39 @@ TEST_F(CircuitPins, AnAxiStreamIsWholeBytes) {
   EXPECT_EQ(first.at("got"), std::to_string(std::stoi(passed, nullptr, 16)));
 }
 
+// Padded to 16 bits each, and found by the port's name: lowest.v of the guide, with fields apart.
+TEST_F(CircuitPins, FieldsMayLieApart) {
+  make_cpp_circuit(program, "circuit", "IN(in_costs, 64) OUT(out_disparity, 12)",
+                   "unsigned best = 0;\n"
+                   "const auto cost = [](unsigned i) { return in_costs >> 16 * i & 2047; };\n"
+                   "for (unsigned i = 1; i < 4; ++i) if (cost(i) < cost(best)) best = i;\n"
+                   "out_disparity = best << 4;");
+  const std::string run =
+      "run --size 32x16 --timing-frames 1 --no-verdict -s matching.parallelism=4 -s matching.iterations=1 "
+      "-s subpixel.curve=none -s subpixel.mask_border=false --circuit subpixel=circuit.so ";
+  const Outcome whole = program(run);
+  EXPECT_EQ(whole.code, 2) << whole.out;
+  EXPECT_EQ(
+      whole.err,
+      "parallax: error: circuit circuit: pin in_costs has 64 bits; as in_costs.data it must have 44: 4 x "
+      "11, cost_0 lowest; fields that lie otherwise: --circuit-pins in_costs.cost_1=in_costs[26:16] "
+      "...\n");
+  std::string fields =
+      "--circuit-set in_costs[15:11]=0 --circuit-set in_costs[31:27]=0 "
+      "--circuit-set in_costs[47:43]=0 --circuit-set in_costs[63:59]=0 ";
+  for (int i = 0; i < 3; ++i)
+    fields += fmt::format("--circuit-pins in_costs.cost_{}=in_costs[{}:{}] ", i, 16 * i + 10, 16 * i);
+  const Outcome three = program(run + fields);
+  EXPECT_EQ(three.code, 2) << three.out;
+  EXPECT_NE(three.err.find(": subpixel has no pin for in_costs.cost_3 (11 bits), such as in_costs_cost_3; "
+                           "nothing drives the input in_costs[58:48] (11 bits); "),
+            std::string::npos)
+      << three.err;
+  const Outcome four = program(run + fields + "--circuit-pins in_costs.cost_3=in_costs[58:48]");
+  EXPECT_EQ(four.code, 0) << four.err << four.out;
+  EXPECT_NE(four.out.find("winners: equal, 512 tokens"), std::string::npos) << four.out;
+}
+
 struct Refused {
   const char* name;
   const char* options;
@@ -195,10 +229,9 @@ INSTANTIATE_TEST_SUITE_P(
                 "pixels"},
         Refused{"Width", "--circuit-pins in_right.data=pixels[14:8]",
                 "circuit circuit: pin pixels[14:8] has 7 bits; as in_right.data it must have 8"},
-        Refused{
-            "Undriven", "--circuit-pins in_right.data=pixels[15:8]",
-            "circuit circuit: nothing drives bit 16 of the input pixels; --circuit-pins ROLE=pixels[16] says "
-            "what it is, --circuit-set pixels[16]=VALUE what it is to be"},
+        Refused{"Undriven", "--circuit-pins in_right.data=pixels[15:8]",
+                "circuit circuit: nothing drives the input pixels[17:16] (2 bits); --circuit-pins "
+                "ROLE=pixels[17:16] says what it is, --circuit-set pixels[17:16]=VALUE what it is to be"},
         Refused{"Constant", "--circuit-pins in_right.data=pixels[15:8] --circuit-set pixels[17:16]=4",
                 "--circuit-set pixels[17:16]=4: pin pixels[17:16] has 2 bits, which do not hold it"},
         Refused{"TwoRolesOfOnePin", "--circuit-pins in_right.data=pixels[7:0]",
@@ -210,7 +243,8 @@ INSTANTIATE_TEST_SUITE_P(
                 "circuit circuit: pin pixels[15:8] is --circuit-set pixels[8]=1 and in_right.data; "
                 "--circuit-pins ROLE=PIN gives each its own"},
         Refused{
-            "ClockThatIsSet", "--circuit-pins in_right.data=pixels[15:8] --circuit-set clk=0",
+            "ClockThatIsSet",
+            "--circuit-pins in_right.data=pixels[15:8] --circuit-set pixels[17:16]=0 --circuit-set clk=0",
             "circuit circuit has no clock, such as clk, but a handshake at in_left; --circuit-pins clock=PIN "
             "names it"},
         Refused{"Output", "--circuit-pins in_right.data=pixels[15:8] --circuit-set codes[1:0]=1",
