@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
-# parallax_add_cosim(NAME STAGE STAGE SOURCES FILE... [TOP NAME] [PARAMETERS NAME=VALUE...] [OPTIONS OPTION...]): a program NAME
-# that is `parallax run` with a circuit in Verilog in the place of a stage. It takes all options of that, after OPTIONS.
+# parallax_add_cosim(NAME STAGE STAGE SOURCES FILE... [TOP NAME] [PARAMETERS NAME=VALUE...] [INCLUDES DIR...]
+# [DEFINES NAME[=VALUE]...] [OPTIONS OPTION...]): a program NAME that is `parallax run` with a circuit in Verilog in the place of a stage. It takes all options of that, after OPTIONS.
 function(parallax_add_cosim name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "STAGE;TOP" "SOURCES;PARAMETERS;OPTIONS")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "STAGE;TOP" "SOURCES;PARAMETERS;INCLUDES;DEFINES;OPTIONS")
   if(arg_UNPARSED_ARGUMENTS OR arg_KEYWORDS_MISSING_VALUES OR NOT arg_STAGE OR NOT arg_SOURCES)
     message(FATAL_ERROR
-      "parallax_add_cosim(${name}): STAGE and SOURCES are needed, TOP, PARAMETERS and OPTIONS may follow; "
+      "parallax_add_cosim(${name}): STAGE and SOURCES are needed, TOP, PARAMETERS, INCLUDES, DEFINES and OPTIONS may "
+      "follow; "
       "not: ${arg_UNPARSED_ARGUMENTS} ${arg_KEYWORDS_MISSING_VALUES}")
   endif()
   set(sources)
@@ -19,6 +20,13 @@ function(parallax_add_cosim name)
   endif()
   foreach(parameter ${arg_PARAMETERS})
     list(APPEND built --circuit-parameter ${parameter})
+  endforeach()
+  foreach(folder ${arg_INCLUDES})
+    cmake_path(ABSOLUTE_PATH folder BASE_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR})
+    list(APPEND built --circuit-include ${folder})
+  endforeach()
+  foreach(define ${arg_DEFINES})
+    list(APPEND built --circuit-define ${define})
   endforeach()
   set(library ${CMAKE_CURRENT_BINARY_DIR}/${name}.so)
   add_custom_command(OUTPUT ${library} DEPENDS ${sources} VERBATIM

@@ -45,6 +45,14 @@ void add_build_options(const CircuitOptionAdder& options, const std::function<vo
       "--circuit-parameter", "NAME=VALUE",
       [](CircuitOptions& of, const std::string& one) { of.parameters.push_back(one); },
       "A parameter of the top module. Repeated"));
+  also(options.add<std::string>(
+      "--circuit-include", "DIR",
+      [](CircuitOptions& of, const std::string& folder) { of.includes.push_back(folder); },
+      "A folder in which `include files and modules are looked for, beside those of the sources. Repeated"));
+  also(options.add<std::string>(
+      "--circuit-define", "NAME[=VALUE]",
+      [](CircuitOptions& of, const std::string& one) { of.defines.push_back(one); },
+      "A macro of the preprocessor, as `define. Repeated"));
 }
 
 }  // namespace

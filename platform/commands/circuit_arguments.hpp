@@ -11,7 +11,7 @@ class App;
 
 namespace parallax {
 
-/// --circuit-top and --circuit-parameter: of Verilog that is built.
+/// --circuit-top, --circuit-parameter, --circuit-include and --circuit-define: of Verilog that is built.
 void add_circuit_build_options(CLI::App& command, CircuitOptions& circuit);
 
 /// --circuit, once for each circuit in the place of a stage, and what belongs to it.

@@ -72,6 +72,17 @@ std::string complaint(const std::string& said, const char* word) {
   return last;
 }
 
+// With what the user can do about a file that is not found.
+std::string with_remedy(const std::string& complaint) {
+  if (complaint.find("Cannot find include file") != std::string::npos)
+    return complaint + "; --circuit-include DIR says where it is";
+  if (complaint.find("Cannot find file containing module") != std::string::npos)
+    return complaint + "; several files may be given, or --circuit-include DIR says where it is";
+  if (complaint.find("Define or directive not defined") != std::string::npos)
+    return complaint + "; --circuit-define NAME[=VALUE] defines it";
+  return complaint;
+}
+
 // Runs a tool; what it says goes into a file of the folder. UserError when it is missing or fails.
 std::string run_tool(const Words& words, const fs::path& folder, const char* package,
                      const char* error_word) {
@@ -98,7 +109,7 @@ std::string run_tool(const Words& words, const fs::path& folder, const char* pac
   while (::waitpid(process, &status, 0) < 0 && errno == EINTR) continue;
   std::string said = content(log);
   if (status != 0)
-    throw UserError(fmt::format("{}: {}", words[0], excerpt(complaint(said, error_word), 600)));
+    throw UserError(fmt::format("{}: {}", words[0], with_remedy(excerpt(complaint(said, error_word), 600))));
   return said;
 }
 
@@ -259,6 +270,19 @@ void build_circuit(const std::vector<fs::path>& sources, const CircuitOptions& o
           fmt::format("--circuit-parameter: '{}' is not NAME=VALUE, as WIDTH=640", excerpt(parameter)));
     }
     words.push_back("-G" + parameter);
+  }
+  for (const std::string& include : options.includes) {
+    if (!fs::is_directory(include))
+      throw UserError(fmt::format("--circuit-include: {} is no folder", excerpt(include, 300)));
+    words.push_back("-I" + include);
+  }
+  for (const std::string& define : options.defines) {
+    static const std::regex macro("[A-Za-z_]\\w*(=[^]*)?");
+    if (!std::regex_match(define, macro)) {
+      throw UserError(fmt::format("--circuit-define: '{}' is not NAME[=VALUE], as SIMULATION or WIDTH=640",
+                                  excerpt(define)));
+    }
+    words.push_back("-D" + define);
   }
   for (const fs::path& source : sources) {
     check_language(source);

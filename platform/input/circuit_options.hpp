@@ -16,6 +16,8 @@ struct CircuitOptions {
   std::string circuit;                  ///< STAGE=FILE[,FILE...]: a library, or Verilog
   std::string top;                      ///< the top module; empty: the only one
   std::vector<std::string> parameters;  ///< NAME=VALUE, of Verilog
+  std::vector<std::string> includes;    ///< folders in which `include and modules are looked for
+  std::vector<std::string> defines;     ///< NAME or NAME=VALUE, of the preprocessor
   std::vector<std::string> pins;        ///< ROLE=PIN: "in_left.data=pixel", "clock=clk_i"
   std::vector<std::string> constants;   ///< PIN=VALUE: inputs that stay as they are
   std::uint64_t interval = 1;           ///< least cycles from one token to the next at an input, >= 1

@@ -62,6 +62,35 @@ TEST_F(CircuitBuild, RefusesWhatIsNoCircuit) {
       "it");
 }
 
+// A file and a module in two folders, and macros with a value and without.
+TEST_F(CircuitBuild, FindsWhatLiesElsewhere) {
+  program.folder().write("inc/w.vh", "`define W 12\n");
+  program.folder().write("lib/through.v",
+                         "module through(input [`WIDE:0] a, output [`WIDE:0] b); assign b = a; endmodule\n");
+  const std::string top =
+      "`include \"w.vh\"\nmodule c(input [`W-1:0] in_disparity, output [`W-1:0] out_disparity);\n"
+      "  through one(in_disparity, out_disparity);\n`ifndef PLAIN\n  no such thing\n`endif\nendmodule\n";
+  const auto said = [&](const std::string& options) { return build(top, "--out c.so " + options).err; };
+  const auto expect_said = [](const std::string& text, const std::string& end) {
+    ASSERT_GE(text.size(), end.size());
+    EXPECT_EQ(text.substr(text.size() - end.size()), end);
+  };
+  expect_said(said(""), "Cannot find include file: w.vh; --circuit-include DIR says where it is\n");
+  const std::string includes = "--circuit-include inc --circuit-define PLAIN ";
+  expect_said(said(includes),
+              "Cannot find file containing module: 'through'; several files may be given, or "
+              "--circuit-include DIR says where it is\n");
+  expect_said(said(includes + "--circuit-include lib "),
+              "Define or directive not defined: '`WIDE'; --circuit-define NAME[=VALUE] defines it\n");
+  expect_refused(build(top, "--out c.so --circuit-include none"), "--circuit-include: none is no folder");
+  expect_refused(build(top, "--out c.so --circuit-define =3"),
+                 "--circuit-define: '=3' is not NAME[=VALUE], as SIMULATION or WIDTH=640");
+  const Outcome outcome = program(
+      "run --size 32x16 --timing-frames 1 --no-verdict --circuit noise_reduction=c.sv,lib/through.v "
+      "--circuit-include inc --circuit-define PLAIN --circuit-define WIDE=11");
+  EXPECT_EQ(outcome.code, 1) << "it reduces no noise: " << outcome.err;
+}
+
 // Not by the file, whose name Verilator takes.
 TEST_F(CircuitBuild, IsCalledByItsTopModule) {
   ASSERT_EQ(

@@ -1,0 +1,2 @@
+// Of a byte in a burst.
+`define PLACE_BITS 7
