@@ -102,6 +102,12 @@ void add_circuit_options(CLI::App& command, std::vector<CircuitOptions>& circuit
       "--circuit-interval", [](CircuitOptions& of, std::uint64_t cycles) { of.interval = cycles; }, kPositive,
       "1", "Least cycles from one token to the next at an input");
   add_number(
+      "--circuit-row-gap", [](CircuitOptions& of, std::uint64_t edges) { of.row_gap = edges; }, kCount, "0",
+      "Least clock edges without a token behind each row, as in horizontal blanking");
+  add_number(
+      "--circuit-frame-gap", [](CircuitOptions& of, std::uint64_t edges) { of.frame_gap = edges; }, kCount,
+      "0", "Least clock edges without a token behind each frame, or tile of it");
+  add_number(
       "--circuit-latency", [](CircuitOptions& of, std::uint64_t edges) { of.latency = edges; }, kCount, "0",
       "Clock edges from a token to its result, of a circuit without valid at its outputs");
   add_number(

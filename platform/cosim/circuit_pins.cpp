@@ -199,6 +199,8 @@ class Finder {
     pins.row = counter_at(stream, "row");
     pins.column = counter_at(stream, "column");
     pins.group = counter_at(stream, "group");
+    pins.line_valid = take_at(stream, "line_valid", true, 1);
+    pins.frame_valid = take_at(stream, "frame_valid", true, 1);
     return pins;
   }
 
@@ -266,6 +268,8 @@ class Finder {
     share_one("first", &PortPins::first, is_input);
     share_one("last", &PortPins::last, is_input);
     if (!is_input) return;
+    share_one("line_valid", &PortPins::line_valid, true);
+    share_one("frame_valid", &PortPins::frame_valid, true);
     share_one("row", &PortPins::row, true);
     share_one("column", &PortPins::column, true);
   }
@@ -360,6 +364,33 @@ void check_latency(const PinList& circuit, const CircuitPins& pins, const Circui
       options.latency, circuit.name, pins.ports.back().valid.name(), pins.ports.back().port));
 }
 
+// What tells the circuit of a gap, so that its clock can run in it.
+void check_gaps(const PinList& circuit, const CircuitPins& pins, const VectorManifest& stage,
+                const CircuitOptions& options) {
+  bool rows = false;
+  for (const VectorStream& stream : stage.streams) rows |= stream.is_input && stream.shape.row_tokens > 0;
+  if (options.row_gap > 0 && !rows) {
+    throw UserError(fmt::format("--circuit-row-gap {}: the inputs of {} know no rows; leave it out",
+                                options.row_gap, stage.stage));
+  }
+  if (pins.enable) return;
+  for (const PortPins& port : pins.ports) {
+    if (!port.is_input || port.valid || port.line_valid) continue;
+    if (options.row_gap > 0) {
+      throw UserError(fmt::format(
+          "--circuit-row-gap {}: circuit {} has neither valid nor line_valid at {}, which would tell it of a "
+          "gap; --circuit-pins {}.line_valid=PIN names one",
+          options.row_gap, circuit.name, port.port, port.port));
+    }
+    if (options.frame_gap > 0 && !port.frame_valid) {
+      throw UserError(fmt::format(
+          "--circuit-frame-gap {}: circuit {} has neither valid, line_valid nor frame_valid at {}, which "
+          "would tell it of a gap; --circuit-pins {}.frame_valid=PIN names one",
+          options.frame_gap, circuit.name, port.port, port.port));
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> half_handshakes(const CircuitPins& pins) {
@@ -390,6 +421,7 @@ CircuitPins find_pins(const PinList& circuit, const VectorManifest& stage, const
     }
   }
   check_latency(circuit, pins, options);
+  check_gaps(circuit, pins, stage, options);
   return pins;
 }
 

@@ -29,14 +29,18 @@ struct PortPins {
   PinBits first;  ///< 1 with the first token of a frame
   PinBits last;   ///< 1 with the last token of a row
   // Beside an input's data.
-  PinBits keep;    ///< all ones: every byte counts
-  PinBits row;     ///< of the token's first pixel in the image, or the tile
-  PinBits column;  ///< likewise; of tokens that know no rows their number in the frame
-  PinBits group;   ///< of a pixel that has several tokens, which one
+  PinBits keep;         ///< all ones: every byte counts
+  PinBits row;          ///< of the token's first pixel in the image, or the tile
+  PinBits column;       ///< likewise; of tokens that know no rows their number in the frame
+  PinBits line_valid;   ///< 1 from a row's first token on until its last one is taken
+  PinBits frame_valid;  ///< likewise of a frame, or tile, and the zeros behind it
+  PinBits group;        ///< of a pixel that has several tokens, which one
 
   /// Whether tokens pass at both together.
   bool joined_with(const PortPins& other) const {
-    return is_input == other.is_input && ((valid && valid == other.valid) || (ready && ready == other.ready));
+    const auto share = [&](PinBits PortPins::*pin) { return this->*pin && this->*pin == other.*pin; };
+    return is_input == other.is_input && (share(&PortPins::valid) || share(&PortPins::ready) ||
+                                          share(&PortPins::line_valid) || share(&PortPins::frame_valid));
   }
 };
 

@@ -75,21 +75,44 @@ bool CircuitInput::take(Cycles cycle, std::uint64_t paced, bool stands) {
   }
   if (!wanted || !presented_) return false;
   offered_ = loaded_ = false;
-  next_ = paced + port_.options.interval;
   if (flush_ > 0) {
     --flush_;
-    return true;
+  } else {
+    end_->pop(comes_late_);
+    stream().mark_read(cycle, starved_);
+    starved_ = Cycles(0);
+    if (++tokens_ % pass_tokens_ == 0) flush_ = pass_flush_;
   }
-  end_->pop(comes_late_);
-  stream().mark_read(cycle, starved_);
-  starved_ = Cycles(0);
-  if (++tokens_ % pass_tokens_ == 0) flush_ = pass_flush_;
+  const CircuitOptions& options = port_.options;
+  std::uint64_t gap = port_.stream.shape.row_tokens > 0 && !in_row() ? options.row_gap : 0;
+  if (position() == 0) gap = std::max(gap, options.frame_gap);
+  gap_end_ = paced + 1 + gap;
+  next_ = std::max(gap_end_, paced + options.interval);
   return true;
+}
+
+// Tokens of this pass that were taken, with the zeros behind them.
+std::uint64_t CircuitInput::position() const {
+  return flush_ > 0 ? pass_tokens_ + pass_flush_ - flush_ : tokens_ % pass_tokens_;
+}
+
+// Whether some of a row's tokens were taken, and not all; zeros are further rows.
+bool CircuitInput::in_row() const {
+  const std::uint64_t row_tokens = port_.stream.shape.row_tokens;
+  return row_tokens > 0 ? position() % row_tokens != 0 : position() != 0;
+}
+
+bool CircuitInput::shows_none(std::uint64_t paced) const {
+  const PortPins& pins = port_.pins;
+  return !offered_ && ((pins.line_valid && !in_row()) || (pins.frame_valid && position() == 0) ||
+                       (pins.valid && paced < gap_end_));
 }
 
 void CircuitInput::present(bool all) {
   presented_ = all;
   set_if_there(port_.pins.valid, all ? 1 : 0);
+  set_if_there(port_.pins.line_valid, all || in_row() ? 1 : 0);
+  set_if_there(port_.pins.frame_valid, all || position() != 0 ? 1 : 0);
 }
 
 std::string CircuitInput::wait() const {

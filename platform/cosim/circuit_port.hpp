@@ -60,26 +60,33 @@ class CircuitInput {
   /// Whether it was taken, the circuit's clock standing still or not.
   bool take(Cycles cycle, std::uint64_t paced, bool stands);
 
+  /// Whether its pins show the circuit that there is no token, so that its clock can run: in a gap, or
+  /// between rows or frames where a pin says so.
+  bool shows_none(std::uint64_t paced) const;
+
   std::uint64_t tokens_begun() const { return tokens_ + (offered_ && flush_ == 0 ? 1 : 0); }
   /// What it waits for.
   std::string wait() const;
 
  private:
   void load();
+  std::uint64_t position() const;
+  bool in_row() const;
 
   const CircuitPort port_;
   const std::uint64_t pass_tokens_;
   const std::uint64_t pass_flush_;  // tokens of zeros behind each pass
   CircuitEnd* end_ = nullptr;
   Stalls stalls_;
-  std::uint64_t tokens_ = 0;  // that were taken
-  std::uint64_t flush_ = 0;   // tokens of zeros that are still due behind the frame
-  bool offered_ = false;      // until the token is taken
-  bool presented_ = false;    // valid is 1
-  bool loaded_ = false;       // its bits are on the pins
-  bool comes_late_ = false;   // its value
-  std::uint64_t next_ = 0;    // of the cycles that pace it: the earliest of the next one
-  Cycles starved_{0};         // cycles in which it was wanted and not there
+  std::uint64_t tokens_ = 0;   // that were taken
+  std::uint64_t flush_ = 0;    // tokens of zeros that are still due behind the frame
+  bool offered_ = false;       // until the token is taken
+  bool presented_ = false;     // valid is 1
+  bool loaded_ = false;        // its bits are on the pins
+  bool comes_late_ = false;    // its value
+  std::uint64_t next_ = 0;     // of the cycles that pace it: the earliest of the next one
+  std::uint64_t gap_end_ = 0;  // of these: in which the gap is over
+  Cycles starved_{0};          // cycles in which it was wanted and not there
   std::vector<std::uint64_t> bits_;
 };
 

@@ -50,6 +50,7 @@ CircuitStage::CircuitStage(const sc_core::sc_module_name& name, Circuit& circuit
       after_edge_(after_edge(order)) {
   const VectorManifest& stage = model.manifest;
   std::uint64_t seed = options.seed;
+  std::uint64_t of_pass = 0;
   for (std::size_t i = 0; i < stage.streams.size(); ++i) {
     const VectorStream& stream = stage.streams[i];
     const CircuitPort port{stage, stream, model.streams[i], pins.ports[i], options};
@@ -57,12 +58,14 @@ CircuitStage::CircuitStage(const sc_core::sc_module_name& name, Circuit& circuit
     ++seed;
     if (stream.is_input) {
       inputs_.push_back(std::make_unique<CircuitInput>(port, seed));
-      of_pass_ = std::max(of_pass_, port.pass_tokens() + port.pass_flush());
+      of_pass = std::max(of_pass, port.pass_tokens() + port.pass_flush());
     } else {
       outputs_.push_back(std::make_unique<CircuitOutput>(port, seed));
       needs_all_ |= !port.pins.valid;
     }
   }
+  delay_.configure(options.latency, of_pass);
+  timeout_ += options.row_gap + options.frame_gap;
   join(inputs_, joined_inputs_);
   join(outputs_, joined_outputs_);
   if (options.stall > 0) {
@@ -104,7 +107,8 @@ void CircuitStage::start_of_simulation() {
   };
   if (pins_.enable) pins_.enable.set(1);
   for (const PortPins& port : pins_.ports) {
-    for (const PinBits& pin : {port.is_input ? port.valid : port.ready, port.first, port.last}) {
+    for (const PinBits& pin : {port.is_input ? port.valid : port.ready, port.first, port.last,
+                               port.line_valid, port.frame_valid}) {
       if (pin && pin.pin().is_input != 0) pin.set(0);
     }
     if (port.keep)
@@ -202,18 +206,24 @@ bool CircuitStage::can_run() const {
   return has_room();
 }
 
+// Whether an edge that would take a token at each input takes none, since one of them shows that it has none.
+bool CircuitStage::goes_without_token() const {
+  return needs_all_ && std::any_of(inputs_.begin(), inputs_.end(),
+                                   [this](const auto& input) { return input->shows_none(paced_); });
+}
+
 bool CircuitStage::has_room() const {
   return std::none_of(outputs_.begin(), outputs_.end(),
                       [](const auto& output) { return lacks_room(*output); });
 }
 
 bool CircuitStage::lacks_token(const CircuitInput& input) const {
-  return (needs_all_ || !input.port().pins.valid) && !input.offered();
+  return (needs_all_ || !input.port().pins.valid) && !input.offered() && !input.shows_none(paced_);
 }
 
 // Whether what is at an output without valid lies behind the last result of a pass.
 bool CircuitStage::is_behind(const CircuitOutput& output) const {
-  return steps_ >= options_.latency + output.port().pass_tokens() + options_.skip;
+  return delay_.number() >= output.port().pass_tokens() + options_.skip;
 }
 
 bool CircuitStage::lacks_room(const CircuitOutput& output) {
@@ -227,10 +237,11 @@ void CircuitStage::step() {
     if (input->offer(cycle_, paced_)) due_ = cycle_;
   }
   for (const auto& output : outputs_) output->make_ready(cycle_);
+  const bool bare = goes_without_token();
   for (const auto& inputs : joined_inputs_) {
     const bool all =
         std::all_of(inputs.begin(), inputs.end(), [](const CircuitInput* input) { return input->offered(); });
-    for (CircuitInput* const input : inputs) input->present(all);
+    for (CircuitInput* const input : inputs) input->present(all && !bare);
   }
   for (const auto& outputs : joined_outputs_) {
     const bool all = std::all_of(outputs.begin(), outputs.end(),
@@ -242,7 +253,7 @@ void CircuitStage::step() {
   circuit_.evaluate();
   for (ReadyProbe& probe : probes_) probe.look(cycle_);
   for (const auto& output : outputs_) {
-    output->look(cycle_, steps_ >= options_.latency && !is_behind(*output));
+    output->look(cycle_, delay_.there(!bare) && !is_behind(*output));
   }
   const bool stands = !can_run();
   bool moved = false;
@@ -252,9 +263,10 @@ void CircuitStage::step() {
   for (const auto& input : inputs_) moved |= input->take(cycle_, paced_, stands);
   if (moved) moved_ = cycle_;
   for (const auto& output : outputs_) {
-    if (!stands && !output->port().pins.valid && is_behind(*output)) output->drop();
+    const bool drops = !output->port().pins.valid && delay_.there(!bare) && delay_.within_pass();
+    if (!stands && drops && is_behind(*output)) output->drop();
   }
-  if (!stands && ++steps_ == of_pass_) steps_ = 0;
+  if (!stands && needs_all_) delay_.edge(!bare);
   if (has_room()) ++paced_;
   if (stands && pins_.enable) {
     pins_.enable.set(0);

@@ -17,6 +17,7 @@
 #include "platform/cosim/circuit_watch.hpp"
 #include "platform/cosim/circuit_waves.hpp"
 #include "platform/cosim/ready_probe.hpp"
+#include "platform/cosim/result_delay.hpp"
 #include "platform/cosim/stage_record.hpp"
 #include "platform/input/circuit_options.hpp"
 #include "platform/machine/circuit_end.hpp"
@@ -35,6 +36,10 @@ namespace parallax {
 /// without valid: where there is no room, or no token, the clock stands still (the enable pin is 0, or, if
 /// there is none, there is no edge). Without valid at an output, its tokens are those that leave
 /// `CircuitOptions::latency` edges behind the token at the inputs.
+///
+/// Behind a row or a frame there may be a gap, in which the clock runs though there is no token, as in
+/// blanking. A circuit with line_valid (frame_valid) and without valid has its clock running between rows
+/// (frames) anyway.
 ///
 /// When nothing has been due for a thousand cycles, as between frames, the clock stands until the next token.
 ///
@@ -84,6 +89,7 @@ class CircuitStage final : public sc_core::sc_module, public Actor, public Circu
   void wait_for_dates();
   void step();
   bool can_run() const;
+  bool goes_without_token() const;
   bool has_room() const;
   bool lacks_token(const CircuitInput& input) const;
   bool is_behind(const CircuitOutput& output) const;
@@ -114,9 +120,8 @@ class CircuitStage final : public sc_core::sc_module, public Actor, public Circu
   std::vector<std::vector<CircuitInput*>> joined_inputs_;  // all inputs, those that pass together in a group
   std::vector<std::vector<CircuitOutput*>> joined_outputs_;
   std::vector<ReadyProbe> probes_;  // of each of these, where sides are stalled
-  std::uint64_t steps_ = 0;         // of a circuit without valid at its outputs, in this pass
+  ResultDelay delay_;               // of a circuit without valid at its outputs
   std::uint64_t paced_ = 0;         // cycles in which its clock did not stand for want of room
-  std::uint64_t of_pass_ = 0;       // of these, one pass over the image or a tile
   bool needs_all_ = false;          // an output has no valid: there is a step only with a token at each input
   Cycles cycle_{0};                 // the next one
   Cycles moved_{0};                 // the last one in which a token passed,

@@ -15,8 +15,8 @@ namespace {
 
 // Whether ports may have one pin for both: what is the same of both, and is no data.
 bool may_share(const std::string& one, const std::string& other) {
-  static const std::set<std::string> of_all{"valid", "ready", "first",  "last",
-                                            "keep",  "row",   "column", "group"};
+  static const std::set<std::string> of_all{"valid", "ready",  "first", "last",       "keep",
+                                            "row",   "column", "group", "line_valid", "frame_valid"};
   const auto kind = [](const std::string& role) { return role.substr(role.find('.') + 1); };
   return kind(one) == kind(other) && of_all.count(kind(one)) > 0;
 }

@@ -13,6 +13,8 @@ const std::map<std::string, PinNames>& pin_endings() {
       {"keep", {"keep", "tkeep", "tstrb"}},
       {"row", {"row", "y"}},
       {"column", {"column", "col", "x"}},
+      {"line_valid", {"line_valid", "lval", "href"}},
+      {"frame_valid", {"frame_valid", "fval"}},
       {"group", {"group", "iteration"}},
   };
   return all;
@@ -53,6 +55,8 @@ const SharedNames& shared_names(const std::string& role) {
       {"last",
        {{"in_last", "in_eol", "eol_in", "i_eol", "eol", "s_axis_tlast"},
         {"out_last", "out_eol", "eol_out", "o_eol", "eol", "m_axis_tlast"}}},
+      {"line_valid", {{"in_line_valid", "line_valid", "in_lval", "lval_in", "lval", "in_href", "href"}, {}}},
+      {"frame_valid", {{"in_frame_valid", "frame_valid", "in_fval", "fval_in", "fval"}, {}}},
       {"row", {{"in_row", "in_y", "row", "y"}, {}}},
       {"column", {{"in_column", "in_col", "in_x", "column", "col", "x"}, {}}},
   };

@@ -21,6 +21,8 @@ struct CircuitOptions {
   std::vector<std::string> pins;        ///< ROLE=PIN: "in_left.data=pixel", "clock=clk_i"
   std::vector<std::string> constants;   ///< PIN=VALUE: inputs that stay as they are
   std::uint64_t interval = 1;           ///< least cycles from one token to the next at an input, >= 1
+  std::uint64_t row_gap = 0;            ///< least edges without a token behind each row, at an input
+  std::uint64_t frame_gap = 0;          ///< likewise behind each frame, or tile, and the zeros behind it
   std::uint64_t latency = 0;            ///< edges from a token to its result, of a circuit without valid
   std::optional<std::uint64_t> flush;   ///< tokens of zeros behind each frame; none: `latency`
   std::uint64_t skip = 0;               ///< outputs before a frame's first token that count for nothing
