@@ -12,6 +12,7 @@ constexpr const char* kFifoBenchText =
     R"(// Test bench of the FIFO @module@: random stalls on both sides, and the waves that parallax fifo reads.
 //   $ iverilog -g2012 -o sim fifo_bench.sv @module@.v && vvp sim && parallax fifo fifo_bench.vcd
 //   $ verilator --binary --timing --trace -Wno-fatal --top-module fifo_bench fifo_bench.sv @module@.v && obj_dir/Vfifo_bench
+// parallax fifo knows the names of these waves: --signals, as it names the module's ports, is left out there.
 // +seed=N: other stalls. +phase=N: cycles until a side stalls in another way, at most (256): more than the FIFO is
 // deep. +cycles=N: of the write clock after reset (20000).@periods_text@
 `timescale 1ps / 1ps

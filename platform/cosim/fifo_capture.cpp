@@ -2,6 +2,7 @@
 #include "platform/cosim/fifo_capture.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -10,6 +11,7 @@
 #include <string_view>
 
 #include "platform/config/nearest_name.hpp"
+#include "platform/cosim/fifo_bench.hpp"
 #include "platform/cosim/vcd_waves.hpp"
 #include "platform/input/text_file.hpp"
 #include "tlm/error.hpp"
@@ -68,9 +70,27 @@ class FifoLookup {
   }
   UserError missing(const std::string& name, const char* role) const {
     if (names_.empty()) return UserError(fmt::format("{}: no signals in this file", path_));
-    return UserError(
-        fmt::format("{}: no signal {} for {}; the nearest is {}; --signals {}=NAME names another one", path_,
-                    excerpt(name), role, excerpt(nearest_name(name, names_)), role));
+    return UserError(fmt::format(
+        "{}: no signal {} for {}; the nearest is {}; {}", path_, excerpt(name), role,
+        excerpt(nearest_name(name, names_)),
+        is_of_bench() ? "these are waves of parallax fifo --bench, whose names are known: leave --signals out"
+                      : fmt::format("--signals {}=NAME names another one", role)));
+  }
+  // None has a name by which it is looked for.
+  UserError none_usual(const char* one, const char* other) const {
+    if (names_.empty()) return UserError(fmt::format("{}: no signals in this file", path_));
+    std::string text =
+        fmt::format("{}: no signal is called {}, for {}", path_, fmt::join(role(one).usual, " or "), one);
+    if (other != nullptr)
+      text += fmt::format(", nor {}, for {}", fmt::join(role(other).usual, " or "), other);
+    return UserError(fmt::format("{}; --signals {}=NAME{} names it", text, one,
+                                 other == nullptr ? "" : fmt::format(" or {}=NAME", other)));
+  }
+  // Whether a test bench that is written here has made them.
+  bool is_of_bench() const {
+    const std::string scope = fmt::format("{}.", kFifoBench);
+    return std::any_of(names_.begin(), names_.end(),
+                       [&](const std::string& name) { return name.find(scope) != std::string::npos; });
   }
 
   std::optional<FifoColumn> of(const char* name, char active) const {
@@ -95,7 +115,7 @@ class FifoLookup {
     if (other != nullptr) {
       if (auto found = of(other, other_active)) return found;
     }
-    if (needed) throw missing(role(one).usual.front(), one);
+    if (needed) throw none_usual(one, other);
     return std::nullopt;
   }
 

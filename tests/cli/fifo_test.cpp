@@ -89,9 +89,13 @@ TEST_F(Fifo, SaysWhyThereIsNoDescription) {
 
 TEST_F(Fifo, RefusesWhatIsNoWaves) {
   EXPECT_EQ(refusal_of(""), "waves: the file is empty\n");
-  EXPECT_EQ(refusal_of("a,b\n0,1\n"),
-            "waves: no signal write_ready for write_ready; the nearest is a; --signals write_ready=NAME "
-            "names another one\n");
+  EXPECT_EQ(
+      refusal_of("a,b\n0,1\n"),
+      "waves: no signal is called write_ready or s_axis_tready or in_ready or wr_ready, for write_ready, "
+      "nor full or wr_full, for full; --signals write_ready=NAME or full=NAME names it\n");
+  EXPECT_EQ(refusal_of("write_ready,b\n0,1\n"),
+            "waves: no signal is called write_valid or s_axis_tvalid or in_valid or wr_valid or wr_en, for "
+            "write_valid; --signals write_valid=NAME names it\n");
   EXPECT_EQ(refusal_of(std::string(kHead) + "0,1,1,0\n"), "waves, line 2: 4 columns in place of 5\n");
   EXPECT_EQ(refusal_of(std::string(kHead) + "0,1,1,0,yes\n"),
             "waves, line 2: read_ready is 'yes', it should be 0 or 1\n");
@@ -116,6 +120,12 @@ TEST_F(Fifo, RefusesWhatIsNoWaves) {
   EXPECT_EQ(refusal_of(one + "#x\n"), "waves, line 7: '#x' is no date\n");
   EXPECT_EQ(refusal_of(one + "#5\n#4\n"), "waves, line 8: date 4 is before 5\n");
   EXPECT_EQ(refusal("absent.vcd").rfind("absent.vcd", 0), 0U);
+  // Named as the module's ports, for which the test bench was written.
+  program_.folder().write("bench.vcd", "$scope module fifo_bench $end\n$var wire 1 ~ rst $end\n" + one);
+  EXPECT_EQ(
+      refusal("bench.vcd --signals reset_n=rst_n"),
+      "bench.vcd: no signal rst_n for reset_n; the nearest is fifo_bench.rst; these are waves of parallax "
+      "fifo --bench, whose names are known: leave --signals out\n");
 }
 
 TEST_F(Fifo, RefusesOptionsThatDoNotFit) {
