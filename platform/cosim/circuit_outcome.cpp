@@ -31,13 +31,13 @@ CircuitOutcome circuit_outcome(const std::string& module, const CircuitStage& ci
   if (!circuit.breach().empty()) outcome.text += fmt::format("handshake           {}\n", circuit.breach());
   if (!circuit.framing_breach().empty())
     outcome.text += fmt::format("framing             {}\n", circuit.framing_breach());
-  for (const std::string& note : circuit.notes())
-    outcome.text += fmt::format("note                {}\n", note);
   const std::string prefix = "circuit_" + model.manifest.stage;
   if (const std::optional<PinWaves> waves = circuit.waves()) {
     outcome.files.push_back({prefix + ".vcd", to_vcd(*waves)});
     outcome.files.push_back({prefix + ".pftrace", to_perfetto(*waves)});
   }
+  std::vector<std::string> notes = circuit.notes();
+  std::string compared;  // streams
   nlohmann::ordered_json streams = nlohmann::ordered_json::array();
   std::size_t output = 0;
   const ModelTokens recorded = [&model](const VectorStream& stream) {
@@ -51,7 +51,13 @@ CircuitOutcome circuit_outcome(const std::string& module, const CircuitStage& ci
         compare_tokens(model.manifest, stream, model.streams[i].words, dump, recorded);
     const TokenDates dates(stream, dump.cycles, model.streams[i].cycles);
     outcome.as_model = outcome.as_model && values.equal() && dates.within(options.bound);
-    outcome.text += text(values) + dates.text(options.bound);
+    compared += text(values) + dates.text(options.bound);
+    if (model.manifest.stage == "matching" && !values.equal() && values.patterns.front().name == "none") {
+      notes.push_back(fmt::format(
+          "{}: parallax vectors --stage matching --taps writes each path's costs, and parallax compare says "
+          "which path differs",
+          stream.name));
+    }
     nlohmann::ordered_json tree = to_json(values);
     dates.add_to(tree);
     if (!values.equal()) {
@@ -62,6 +68,8 @@ CircuitOutcome circuit_outcome(const std::string& module, const CircuitStage& ci
     }
     streams.push_back(std::move(tree));
   }
+  for (const std::string& note : notes) outcome.text += fmt::format("note                {}\n", note);
+  outcome.text += compared;
   outcome.json = {{"module", module},
                   {"stage", model.manifest.stage},
                   {"cycles", circuit.cycles()},
@@ -69,7 +77,7 @@ CircuitOutcome circuit_outcome(const std::string& module, const CircuitStage& ci
   if (!outcome.fault.empty()) outcome.json["given_up"] = outcome.fault;
   if (!circuit.breach().empty()) outcome.json["handshake"] = circuit.breach();
   if (!circuit.framing_breach().empty()) outcome.json["framing"] = circuit.framing_breach();
-  if (!circuit.notes().empty()) outcome.json["notes"] = circuit.notes();
+  if (!notes.empty()) outcome.json["notes"] = notes;
   outcome.json["streams"] = std::move(streams);
   return outcome;
 }

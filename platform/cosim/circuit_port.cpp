@@ -242,6 +242,14 @@ bool CircuitOutput::put(Cycles cycle, bool stands, std::uint64_t frames) {
   return true;
 }
 
+std::uint64_t CircuitOutput::lost_by_skip() const {
+  const std::uint64_t skip = port_.options.skip;
+  const std::size_t expected = port_.model.words.size();
+  if (port_.pass_flush() >= skip || dump_.words.size() >= expected) return 0;
+  const std::uint64_t missing = expected - dump_.words.size();
+  return missing % skip == 0 ? missing : 0;
+}
+
 std::string CircuitOutput::wait() const {
   const std::string what = port_.place(tokens_);
   if (valid_ && ready_)

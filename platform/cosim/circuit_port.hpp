@@ -129,6 +129,9 @@ class CircuitOutput {
   void drop() { ++dropped_; }
   /// Results behind the last one of a frame that the zeros behind it have made.
   std::uint64_t dropped() const { return dropped_; }
+  /// Of frames with images, tokens that did not come, if leaving out CircuitOptions::skip results of each
+  /// pass and sending fewer zeros explains it; else 0.
+  std::uint64_t lost_by_skip() const;
   const Dump& dump() const { return dump_; }
   std::uint64_t tokens() const { return tokens_; }  ///< that were written
   std::string wait() const;

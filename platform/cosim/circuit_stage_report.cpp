@@ -52,6 +52,12 @@ std::vector<std::string> CircuitStage::notes() const {
     if (!probe.note().empty()) all.push_back(probe.note());
   }
   for (const auto& output : outputs_) {
+    if (const std::uint64_t lost = output->lost_by_skip(); lost > 0) {
+      all.push_back(
+          fmt::format("{}: {} token{} too few, as --circuit-skip {} drops as many of each frame or tile; "
+                      "--circuit-flush {} sends zeros behind it that push its last ones out",
+                      output->port().stream.name, lost, lost == 1 ? "" : "s", options_.skip, options_.skip));
+    }
     const std::uint64_t dropped = output->dropped();
     if (dropped == 0) continue;
     all.push_back(fmt::format(

@@ -311,6 +311,24 @@ TEST(CircuitStandstill, TellsOfHalfAHandshake) {
   expect_in(full, ": its clock stands: out_left has no room, and no ready to say so; ");
 }
 
+// Its sums alone do not say which path is wrong.
+TEST(CircuitPatterns, OfTheMatcherAreSeenInItsPaths) {
+  const Program program;
+  make_cpp_circuit(
+      program, "c",
+      "IN(clk, 1) IN(in_left, 24) IN(in_right, 24) IN(in_valid, 1) OUT(out_costs, 44) OUT(out_valid, 1)",
+      "if (!rises) return;\n static std::uint64_t random = 1;\n"
+      "out_valid = in_valid, out_costs = (random = random * 6364136223846793005u + 1) >> 20;\n");
+  const Outcome outcome = program(
+      "run --size 32x16 --timing-frames 1 --no-verdict -s matching.parallelism=4 -s matching.iterations=1 "
+      "--circuit matching=c.so");
+  EXPECT_EQ(outcome.code, 1) << outcome.err;
+  EXPECT_NE(outcome.out.find(": parallax vectors --stage matching --taps writes each path's costs, and "
+                             "parallax compare says which path differs\n"),
+            std::string::npos)
+      << outcome.out;
+}
+
 struct Waiting {
   const char* name;
   const char* valid;

@@ -138,6 +138,24 @@ TEST_F(CircuitPins, ResultsBehindAFrameAreCounted) {
   EXPECT_EQ(told(no_valid + "--circuit-latency 2 --circuit-flush 4"), note("2 results", "4"));
 }
 
+// What is left out in front of a frame is missing at its end.
+TEST_F(CircuitPins, SkippedResultsNeedZerosBehindAFrame) {
+  make_census(false);
+  const Outcome outcome = program(kCensus + std::string(kBuses) + "--circuit-flush 0 --circuit-timeout 2000");
+  EXPECT_EQ(outcome.code, 1) << outcome.err;
+  EXPECT_NE(outcome.out.find("note                left_codes: 1 token too few, as --circuit-skip 1 drops as "
+                             "many of each frame or tile; --circuit-flush 1 sends zeros behind it that push "
+                             "its last ones out\n"),
+            std::string::npos)
+      << outcome.out;
+  // Without skipping, a frame that ends early has another reason.
+  const Outcome other = program(kCensus + std::string(kBuses) +
+                                "--circuit-flush 0 --circuit-skip 0 --circuit-set valid_in=0 "
+                                "--circuit-pins in_left.valid= --circuit-pins in_right.valid= "
+                                "--circuit-timeout 2000");
+  EXPECT_EQ(other.out.find("too few, as"), std::string::npos) << other.out;
+}
+
 // Of 12 bits in a stream of whole bytes the others are nobody's.
 TEST_F(CircuitPins, AnAxiStreamIsWholeBytes) {
   make_cpp_circuit(program, "circuit",
