@@ -53,10 +53,6 @@ struct CircuitPins {
   std::vector<PortPins> ports;  ///< as the manifest's streams
 };
 
-/// Where some ports of a direction have valid (ready) and others none: what the user may have meant to be one
-/// for all, a line each.
-std::vector<std::string> half_handshakes(const CircuitPins& pins);
-
 /// Finds them for the ports of a stage, and sets the constants; the list must outlive what is found. Throws
 /// UserError when a pin has another width than the tokens, does not hold what is counted on it or runs the
 /// other way; with all of them, when ports have no pin and inputs are driven by nobody. `stage` may be what

@@ -6,6 +6,7 @@
 
 #include "platform/cosim/circuit_stage.hpp"
 #include "platform/cosim/full_fifos.hpp"
+#include "platform/cosim/pin_checks.hpp"
 
 namespace parallax {
 

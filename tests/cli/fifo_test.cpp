@@ -36,7 +36,8 @@ class Fifo : public ::testing::Test {
 constexpr const char* kHead = "rst,write_valid,write_ready,read_valid,read_ready\n";
 // One slot, readable and free an edge later, not ready in the first cycle.
 constexpr const char* kSlot =
-    "1,0,0,0,0\n0,1,0,0,0\n0,1,1,0,0\n0,1,0,1,0\n0,1,0,1,0\n0,1,0,1,1\n0,1,1,0,0\n0,1,0,1,0\n";
+    "1,0,0,0,0\n0,1,0,0,0\n0,1,1,0,0\n0,1,0,1,0\n0,1,0,1,0\n0,1,0,1,1\n0,1,1,0,0\n0,1,0,1,0\n"
+    "0,1,0,1,1\n0,1,1,0,0\n0,1,0,1,1\n0,1,1,0,0\n0,1,0,1,0\n";
 
 TEST_F(Fifo, PrintsTheLinesOfAPreset) {
   program_.folder().write("slot.csv", std::string(kHead) + kSlot);
@@ -46,7 +47,7 @@ TEST_F(Fifo, PrintsTheLinesOfAPreset) {
             "streams.winners.kind = \"registered\"\n"
             "streams.winners.depth = 1\n"
             "streams.winners.not_ready_cycles = 1\n"
-            "# exact for all 2 tokens; 2 were awaited by the reader, 1 by the writer\n");
+            "# exact for all 4 tokens; 4 were awaited by the reader, 3 by the writer\n");
   // As such a file, too.
   program_.folder().write("slot.toml", "inherits = \"scenescan-pro\"\n" + outcome.out);
   const test::Outcome configured = program_("config --preset slot.toml");
