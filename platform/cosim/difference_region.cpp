@@ -16,6 +16,16 @@ namespace {
 
 constexpr std::int64_t kWidestRim = 16;  // px; 31 x 31 is the largest usual window
 
+// The least and the greatest of some places.
+struct Extent {
+  std::int64_t least = INT64_MAX, most = INT64_MIN;
+  void add(std::int64_t place) {
+    least = std::min(least, place);
+    most = std::max(most, place);
+  }
+  std::int64_t length() const { return most - least + 1; }
+};
+
 // Share of all rows, columns or frames but the first.
 double all_but_one(std::int64_t number) { return 1 - 1 / static_cast<double>(number); }
 
@@ -67,6 +77,12 @@ class RegionSearch {
     top_least_ = std::min(top_least_, place.row);
     bottom_least_ = std::min(bottom_least_, below);
     note(columns_, last_column_, x);
+    row_extent_.add(place.row);
+    column_extent_.add(x);
+    const bool is_turned = stream_.shape.order == ScanOrder::kTurned;
+    const bool is_from_right = stream_.shape.order != ScanOrder::kRaster;
+    in_second_row_ += (is_turned ? below : place.row) == 1 ? 1 : 0;
+    in_second_column_ += (is_from_right ? right : x) == 1 ? 1 : 0;
   }
 
   // "the first 3 columns"
@@ -81,7 +97,10 @@ class RegionSearch {
     if (fields_.size() > 1 && comparison_.fields.size() == 1 && !is_one_disparity()) {
       add("one_field", fmt::format("only field {} differs", comparison_.fields.begin()->first));
     }
-    if (manifest_.frames > 1 && frames_.size() < static_cast<std::size_t>(manifest_.frames)) {
+    // Of frames that did not come out nothing is known.
+    const bool are_all_there = comparison_.compared_tokens >= comparison_.expected_tokens;
+    if (manifest_.frames > 1 && are_all_there &&
+        frames_.size() < static_cast<std::size_t>(manifest_.frames)) {
       if (frames_.count(0) == 0 && frames_.size() + 1 == static_cast<std::size_t>(manifest_.frames) &&
           is_no_chance(all_but_one(manifest_.frames)))
         add("frames_after_first",
@@ -92,6 +111,22 @@ class RegionSearch {
     }
     if (manifest_.tile_begins.size() > 1 && tiles_.size() == 1)
       add("one_tile", fmt::format("only tile {} differs", *tiles_.begin()));
+  }
+
+  // Rows of the image that came out, of any frame; those of a stream that is cut are fewer.
+  std::int64_t rows_there() const {
+    const std::uint64_t row = stream_.shape.row_tokens;
+    return tokens_ >= stream_.frame_tokens
+               ? manifest_.height
+               : std::min<std::int64_t>(manifest_.height,
+                                        static_cast<std::int64_t>((tokens_ + row - 1) / row));
+  }
+
+  // Whether differences lie all along a border of such a length: over half of it, or over as much as so few
+  // may by chance. A blob near the border does not.
+  bool is_all_along(const Extent& extent, std::int64_t length) const {
+    return 2 * extent.length() >= length ||
+           !is_no_chance(static_cast<double>(extent.length()) / static_cast<double>(length));
   }
 
   // Whether all differences lie in such a share of the image, or of the frames, though spread evenly so many
@@ -140,7 +175,9 @@ class RegionSearch {
 
   void find_image_regions() {
     const std::int64_t width = manifest_.tile_width;
-    const std::int64_t height = manifest_.height;
+    const std::int64_t height = rows_there();
+    const bool is_whole = height == manifest_.height;
+    if (!is_whole && stream_.shape.order == ScanOrder::kTurned) return;
     const auto is_small = [](std::int64_t reach, std::int64_t size) {
       return reach < kWidestRim && 4 * (reach + 1) <= size;
     };
@@ -149,20 +186,28 @@ class RegionSearch {
     const auto is_border = [&](std::int64_t reach, std::int64_t size, std::size_t lines) {
       return is_small(reach, size) && 2 * static_cast<std::int64_t>(lines) > reach + 1;
     };
+    const bool is_along_rows = is_all_along(column_extent_, width);
+    const bool is_along_columns = is_all_along(row_extent_, height);
     const std::size_t rows = comparison_.rows.size(), columns = columns_.size();
-    if (is_border(top_, height, rows)) add("only_first_rows", border("first", top_ + 1, "row"));
-    if (is_border(bottom_, height, rows)) add("only_last_rows", border("last", bottom_ + 1, "row"));
-    if (is_border(left_, width, columns)) add("only_first_columns", border("first", left_ + 1, "column"));
-    if (is_border(right_, width, columns)) add("only_last_columns", border("last", right_ + 1, "column"));
+    if (is_along_rows && is_border(top_, height, rows))
+      add("only_first_rows", border("first", top_ + 1, "row"));
+    if (is_along_rows && is_whole && is_border(bottom_, height, rows))
+      add("only_last_rows", border("last", bottom_ + 1, "row"));
+    if (is_along_columns && is_border(left_, width, columns))
+      add("only_first_columns", border("first", left_ + 1, "column"));
+    if (is_along_columns && is_border(right_, width, columns))
+      add("only_last_columns", border("last", right_ + 1, "column"));
     if (found_.patterns.size() == before && rows == 1)
       add("one_row", fmt::format("only row {} differs", comparison_.rows.begin()->first));
     if (found_.patterns.size() == before && columns == 1)
       add("one_column", fmt::format("only column {} differs", *columns_.begin()));
+    if (!is_whole) return;
     const std::int64_t within = (width - 2 * (rim_ + 1)) * (height - 2 * (rim_ + 1));
     // That all lie there by chance must be as rare as that none lies in a part of the image.
     const double share = 1 - static_cast<double>(within) / static_cast<double>(width * height);
-    if (found_.patterns.size() == before && is_small(rim_, std::min(width, height)) && share <= 0.5 &&
-        is_no_chance(share))
+    const bool is_all_around = std::max({left_least_, right_least_, top_least_, bottom_least_}) <= rim_;
+    if (found_.patterns.size() == before && is_small(rim_, std::min(width, height)) && is_all_around &&
+        share <= 0.5 && is_no_chance(share))
       add("only_rim", fmt::format("only the rim differs, {} px wide", rim_ + 1));
     if (const std::int64_t equal = equal_rim(); equal > 0 && is_small(equal - 1, std::min(width, height))) {
       add("all_but_rim",
@@ -178,7 +223,8 @@ class RegionSearch {
     const auto tells = [&](std::int64_t ValuePlace::*of, std::int64_t line) { return !is_same(of, line); };
     if (first_row == 1 && is_no_chance(all_but_one(height)) &&
         tells(&ValuePlace::row, order == ScanOrder::kTurned ? height - 1 : 0) &&
-        2 * rows >= static_cast<std::size_t>(height - 1) && height > 2) {
+        2 * rows >= static_cast<std::size_t>(height - 1) && height > 2 &&
+        is_as_others(in_second_row_, rows)) {
       add("rows_after_first",
           order == ScanOrder::kTurned
               ? "the last row is equal, those above it differ: what comes from the row below"
@@ -187,12 +233,18 @@ class RegionSearch {
     if (first_column == 1 && is_no_chance(all_but_one(width)) &&
         tells(&ValuePlace::column,
               manifest_.tile_begins[0] + (order == ScanOrder::kRaster ? 0 : width - 1)) &&
-        2 * columns >= static_cast<std::size_t>(width - 1) && width > 2) {
+        2 * columns >= static_cast<std::size_t>(width - 1) && width > 2 &&
+        is_as_others(in_second_column_, columns)) {
       add("columns_after_first",
           order == ScanOrder::kRaster
               ? "the first column is equal, those after it differ: what comes from the pixel to the left"
               : "the last column is equal, those before it differ: what comes from the pixel to the right");
     }
+  }
+
+  // Whether a line has at least half as many differences as those that have any have on the average.
+  bool is_as_others(std::uint64_t in_line, std::size_t lines) const {
+    return 2 * in_line * lines >= comparison_.different_values;
   }
 
   bool is_one_disparity() const { return comparison_.disparities.size() == 1; }
@@ -227,6 +279,8 @@ class RegionSearch {
   std::set<std::uint64_t> groups_;
   std::int64_t last_frame_ = 0, last_tile_ = 0, last_column_ = 0;
   std::uint64_t last_group_ = 0;
+  Extent row_extent_, column_extent_;
+  std::uint64_t in_second_row_ = 0, in_second_column_ = 0;  // values that differ, in the order of the tokens
   // How far the differences reach from the tile's borders, px.
   std::int64_t rim_ = 0, left_ = 0, right_ = 0, top_ = 0, bottom_ = 0;
   // And how near they come.

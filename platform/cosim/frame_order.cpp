@@ -21,6 +21,10 @@ class OrderSearch {
     if (shape_.row_tokens > 0) {
       if (auto found = find_turned()) return found;
     }
+    if (follows(Block{"token", 1, 0}, [](std::uint64_t j) { return j ^ 1u; }))
+      return DifferencePattern{"pairs_swapped",
+                               "the two tokens of each pair are exchanged: 1, 0, 3, 2 and so on"};
+    if (auto found = find_row_order()) return found;
     for (const Block& block : blocks()) {
       if (auto found = find_blocks(block)) return found;
     }
@@ -80,6 +84,42 @@ class OrderSearch {
     if (is_turned(true, true))
       return DifferencePattern{"turned", "the image is turned by 180 degrees: its last pixel comes first"};
     return std::nullopt;
+  }
+
+  // Whether each frame has all rows of the model's, in another order.
+  std::optional<DifferencePattern> find_row_order() const {
+    const std::uint64_t row = shape_.row_tokens;
+    if (row == 0 || got_.size() != expected_.size() || expected_.size() % row != 0) return std::nullopt;
+    const std::uint64_t rows = comparison_.stream->frame_tokens / row;
+    const auto same = [&](std::uint64_t mine, std::uint64_t others) {
+      for (std::uint64_t i = 0; i < row; ++i) {
+        if (!got_.same(mine * row + i, expected_, others * row + i)) return false;
+      }
+      return true;
+    };
+    std::vector<bool> taken(expected_.size() / row);
+    for (std::uint64_t j = 0; j < taken.size(); ++j) taken[j] = same(j, j);
+    std::uint64_t moved = 0, first = 0, source = 0;
+    for (std::uint64_t j = 0; j < taken.size(); ++j) {
+      if (same(j, j)) continue;
+      // Of a row that differs, the nearest one in the frame.
+      const std::uint64_t begin = j - j % rows, end = begin + rows;
+      std::uint64_t found = end;
+      for (std::uint64_t away = 1; away < rows && found == end; ++away) {
+        if (j >= begin + away && !taken[j - away] && same(j, j - away)) found = j - away;
+        if (found == end && j + away < end && !taken[j + away] && same(j, j + away)) found = j + away;
+      }
+      if (found == end) return std::nullopt;
+      taken[found] = true;
+      if (moved++ == 0) {
+        first = j % rows;
+        source = found % rows;
+      }
+    }
+    return DifferencePattern{
+        "row_order",
+        fmt::format("{} rows are there in another order, the first of them as row {}, which is row {}", moved,
+                    first, source)};
   }
 
   // Whether block j is the model's block source(j), as far as there is one.

@@ -8,19 +8,16 @@
 #include <set>
 #include <string>
 
+#include "platform/cosim/doubled_tokens.hpp"
 #include "platform/cosim/pattern_evidence.hpp"
+#include "platform/cosim/stream_end.hpp"
 
 namespace parallax {
 namespace {
 
 constexpr std::uint64_t kLeastBetween = 16;  // tokens that agree between two that are lost
+constexpr std::uint64_t kPaddingShare = 4;   // of all tokens, at most, fill up what was lost
 constexpr std::uint64_t kMostAtOnce = 64;    // that are lost at one place of several, or a row of them
-
-std::string place_text(const TokenComparison& comparison, std::uint64_t token) {
-  const ValuePlace place = comparison.manifest->place(*comparison.stream, token, 0);
-  if (place.row < 0) return fmt::format("token {} (frame {})", token, place.frame);
-  return fmt::format("token {} (frame {}, row {}, column {})", token, place.frame, place.row, place.column);
-}
 
 class LostTokens {
  public:
@@ -31,11 +28,15 @@ class LostTokens {
         row_(shape_.row_tokens),
         expected_(expected),
         got_(got),
-        differing_(differing) {}
+        differing_(differing),
+        padding_(std::max(constant_from(got), got.size() - got.size() / kPaddingShare)) {}
 
   std::vector<DifferencePattern> find() {
     find_at_one_place();
     if (found_.empty()) find_in_each_row();
+    if (found_.empty()) {
+      if (const auto doubled = find_doubled_tokens(comparison_, expected_, got_)) found_.push_back(*doubled);
+    }
     if (found_.empty()) find_here_and_there();
     return found_;
   }
@@ -47,7 +48,8 @@ class LostTokens {
   // Whether got[i] is expected[i + lost - extra] for all i from `from` on for which both are there. That
   // tokens are lost or too many the length says too, unless it is the model's.
   bool follows(std::uint64_t lost, std::uint64_t extra, std::uint64_t from) const {
-    const auto is_there = [&](std::uint64_t i) { return i + lost < expected_.size() + extra; };
+    const std::uint64_t padding = got_.size() == expected_.size() && lost > 0 ? padding_ : got_.size();
+    const auto is_there = [&](std::uint64_t i) { return i + lost < expected_.size() + extra && i < padding; };
     const auto matches = [&](std::uint64_t i) {
       return !is_there(i) || got_.same(i, expected_, i + lost - extra);
     };
@@ -126,8 +128,12 @@ class LostTokens {
                     twice ? "a token comes twice" : fmt::format("{} too many", extra), place_of(at)));
   }
 
-  // Whether the stream is the model's without pixel `pixel` of each row, or with that one twice.
-  bool has_rows(std::uint64_t pixel, bool twice) const {
+  enum class Column { kLost, kTwice, kInserted };
+
+  // Whether the stream is the model's without pixel `pixel` of each row, with that one twice, or with some
+  // other behind it.
+  bool has_rows(std::uint64_t pixel, Column kind) const {
+    const bool twice = kind != Column::kLost;
     const std::uint64_t unit = shape_.tokens_per_pixel;
     const std::uint64_t length = twice ? row_ + unit : row_ - unit;
     const std::uint64_t same_until = (twice ? pixel + 1 : pixel) * unit;
@@ -135,6 +141,7 @@ class LostTokens {
     const auto matches = [&](std::uint64_t i) {
       if (i >= size) return true;
       const std::uint64_t in_row = i % length;
+      if (kind == Column::kInserted && in_row >= same_until && in_row < same_until + unit) return true;
       const std::uint64_t from = in_row < same_until ? in_row : twice ? in_row - unit : in_row + unit;
       return got_.same(i, expected_, i / length * row_ + from);
     };
@@ -148,14 +155,21 @@ class LostTokens {
   void find_in_each_row() {
     const std::uint64_t unit = shape_.tokens_per_pixel;
     if (row_ <= 2 * unit || comparison_.different_tokens < kLeastMoved) return;
-    for (const bool twice : {false, true}) {
+    for (const Column kind : {Column::kLost, Column::kTwice, Column::kInserted}) {
       std::optional<std::uint64_t> first, last;  // of the pixels that may be it, where neighbours are alike
       for (std::uint64_t pixel = 0; pixel < row_ / unit; ++pixel) {
-        if (!has_rows(pixel, twice)) continue;
+        if (!has_rows(pixel, kind)) continue;
         if (!first) first = pixel;
         last = pixel;
       }
       if (!first) continue;
+      if (kind == Column::kInserted) {
+        return add(
+            "column_inserted",
+            fmt::format("each row has one more, behind {}, all other tokens are there: row r is r {} late",
+                        column_text(*first, *last), unit == 1 ? "tokens" : "pixels"));
+      }
+      const bool twice = kind == Column::kTwice;
       return add(twice ? "column_doubled" : "column_lost",
                  fmt::format("{} {}, all other tokens are there", column_text(*first, *last),
                              twice ? "comes twice" : "is lost"));
@@ -236,20 +250,11 @@ class LostTokens {
   const TokenWords& expected_;
   const TokenWords& got_;
   const std::vector<std::uint64_t>& differing_;
+  const std::uint64_t padding_;  // from which token on all are the same, and may stand for those lost
   std::vector<DifferencePattern> found_;
 };
 
 }  // namespace
-
-std::vector<DifferencePattern> find_end(const TokenComparison& comparison) {
-  if (comparison.different_tokens > 0) return {};
-  if (comparison.got_tokens == 0) return {{"truncated", "no token came out"}};
-  if (comparison.got_tokens < comparison.expected_tokens) {
-    return {{"truncated", fmt::format("it ends before {}, all before that is equal",
-                                      place_text(comparison, comparison.compared_tokens))}};
-  }
-  return {{"surplus", "more tokens at the end, all before them are equal"}};
-}
 
 std::vector<DifferencePattern> find_lost_tokens(const TokenComparison& comparison, const TokenWords& expected,
                                                 const TokenWords& got,

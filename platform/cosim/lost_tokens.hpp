@@ -9,9 +9,6 @@
 
 namespace parallax {
 
-/// Whether one stream is the other, but for its end: `truncated`, `surplus`; none where tokens differ.
-std::vector<DifferencePattern> find_end(const TokenComparison& comparison);
-
 /// Whether a stream is the model's with some tokens left out or too many, at one place (tokens, or whole
 /// rows), at one column of each row, or at several places between which the tokens agree. `differing`: the
 /// first tokens that differ, kLeastExplained or more of them in all.

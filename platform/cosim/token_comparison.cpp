@@ -205,8 +205,11 @@ nlohmann::ordered_json to_json(const TokenComparison& comparison) {
   }
   if (!comparison.patterns.empty()) out["pattern"] = comparison.patterns.front().name;
   out["patterns"] = nlohmann::ordered_json::array();
-  for (const DifferencePattern& pattern : comparison.patterns)
-    out["patterns"].push_back({{"name", pattern.name}, {"text", pattern.text}});
+  for (const DifferencePattern& pattern : comparison.patterns) {
+    nlohmann::ordered_json one{{"name", pattern.name}, {"text", pattern.text}};
+    if (pattern.frame) one["frame"] = *pattern.frame;
+    out["patterns"].push_back(std::move(one));
+  }
   out["rows"] = histogram(comparison.rows);
   out["columns"] = histogram(comparison.columns);
   out["disparities"] = histogram(comparison.disparities);

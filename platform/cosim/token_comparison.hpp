@@ -27,8 +27,9 @@ struct FirstDifference {
 
 /// What all the differences have in common.
 struct DifferencePattern {
-  std::string name;  ///< a word for programs: "only_first_row"
-  std::string text;  ///< a sentence for readers
+  std::string name;                     ///< a word for programs: "only_first_row"
+  std::string text;                     ///< a sentence for readers
+  std::optional<std::int64_t> frame{};  ///< that it is of, where it is of one alone
 };
 
 /// A stream of a circuit beside the model's.

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "platform/cosim/pattern_evidence.hpp"
+#include "platform/cosim/stream_end.hpp"
 
 namespace parallax {
 namespace {
@@ -34,10 +35,14 @@ class ShiftSearch {
   void add(const std::string& name, const std::string& text) { found_.push_back({name, text}); }
 
   // Whether got[i] is expected[i - late] for all i from `from` on for which both are there; late may be < 0.
-  bool shifted(std::int64_t late, std::uint64_t from, const std::vector<std::uint64_t>& differing) const {
+  // `anew`: where both are of one frame.
+  bool shifted(std::int64_t late, std::uint64_t from, const std::vector<std::uint64_t>& differing,
+               bool anew) const {
+    const auto frame = static_cast<std::int64_t>(comparison_.stream->frame_tokens);
     const auto source = [late](std::uint64_t i) { return static_cast<std::int64_t>(i) - late; };
     const auto is_there = [&](std::uint64_t i) {
-      return source(i) >= 0 && source(i) < static_cast<std::int64_t>(expected_.size());
+      return source(i) >= 0 && source(i) < static_cast<std::int64_t>(expected_.size()) &&
+             (!anew || source(i) / frame == static_cast<std::int64_t>(i) / frame);
     };
     const auto matches = [&](std::uint64_t i) {
       return !is_there(i) || got_.same(i, expected_, static_cast<std::uint64_t>(source(i)));
@@ -59,7 +64,7 @@ class ShiftSearch {
     const std::uint64_t row = shape_.row_tokens;
     const std::uint64_t pixel = shape_.tokens_per_pixel;
     const std::uint64_t most = std::min<std::uint64_t>(comparison_.compared_tokens / 2, 4 * row + 64);
-    const auto name = [&](std::uint64_t late, bool early) {
+    const auto name = [&](std::uint64_t late, bool early, bool anew) {
       const char* const way = early ? "early" : "late";
       const std::uint64_t rows = row > 0 && late % row == 0 ? late / row : 0;
       if (rows == 1) {
@@ -67,12 +72,19 @@ class ShiftSearch {
       } else if (row > 0 && late == pixel) {
         add(fmt::format("one_column_{}", way), fmt::format("one column {}", way));
       }
+      // Before that, in a masked border, the model's tokens are alike.
+      const std::uint64_t first = comparison_.first->token;
       add("constant_latency",
-          fmt::format("all tokens are {} {} {}", late, late == 1 ? "token" : "tokens", way));
+          fmt::format("all tokens are {} {} {}{}{}", late, late == 1 ? "token" : "tokens", way,
+                      anew ? ", in each frame anew" : "",
+                      first > late ? ", as shows from " + place_text(comparison_, first) + " on" : ""));
     };
-    for (std::uint64_t late = 1; late <= most; ++late) {
-      if (shifted(static_cast<std::int64_t>(late), late, differing)) return name(late, false);
-      if (shifted(-static_cast<std::int64_t>(late), 0, differing)) return name(late, true);
+    for (const bool anew : {false, true}) {
+      if (anew && (comparison_.manifest->frames < 2 || comparison_.stream->frame_tokens == 0)) continue;
+      for (std::uint64_t late = 1; late <= most; ++late) {
+        if (shifted(static_cast<std::int64_t>(late), late, differing, anew)) return name(late, false, anew);
+        if (shifted(-static_cast<std::int64_t>(late), 0, differing, anew)) return name(late, true, anew);
+      }
     }
     if (row == 0) return;
     for (const std::int64_t way : {1, -1}) {

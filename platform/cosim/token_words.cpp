@@ -85,6 +85,16 @@ void TokenWords::set_unknown(const TokenField& field) {
   for (std::size_t i = 0; i < field.width; ++i) set_bit(field.low + i, false, true);
 }
 
+TokenWords TokenWords::part(std::uint64_t from, std::uint64_t to) const {
+  const auto copy = [&](const std::vector<std::uint64_t>& bits) {
+    return std::vector<std::uint64_t>(bits.begin() + static_cast<std::ptrdiff_t>(from * stride_),
+                                      bits.begin() + static_cast<std::ptrdiff_t>(to * stride_));
+  };
+  TokenWords out(width_, copy(bits_));
+  if (!unknown_.empty()) out.unknown_ = copy(unknown_);
+  return out;
+}
+
 bool TokenWords::same(std::uint64_t token, const TokenWords& other, std::uint64_t other_token) const {
   const auto mine = bits_.begin() + static_cast<std::ptrdiff_t>(token * stride_);
   const auto others = other.bits_.begin() + static_cast<std::ptrdiff_t>(other_token * stride_);

@@ -46,6 +46,8 @@ class TokenWords {
   void set(const TokenField& field, std::uint64_t value);
   void set_unknown(const TokenField& field);
 
+  /// Those from `from` to before `to`. Needs from <= to <= size().
+  TokenWords part(std::uint64_t from, std::uint64_t to) const;
   /// As append() takes them.
   void read(std::uint64_t token, std::vector<std::uint64_t>& bits) const {
     const auto begin = bits_.begin() + static_cast<std::ptrdiff_t>(token * stride_);

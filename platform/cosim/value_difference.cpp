@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>
+#include <map>
 #include <set>
 
 #include "modules/pixel.hpp"
+#include "platform/cosim/pattern_evidence.hpp"
 
 namespace parallax {
 namespace {
@@ -19,12 +21,13 @@ constexpr std::size_t kLeastOneWay = 16;  // tokens: all one way by chance in on
 // Of the values that differ.
 struct Differing {
   bool unknown = false;
-  bool by_one = true;               // each
-  bool validity = true;             // in each, one of the two is invalid
-  std::uint64_t lost = 0;           // that should be valid and are not,
-  std::uint64_t kept = 0;           // and the other way
-  std::uint64_t changed = 0;        // bits
-  std::set<std::uint64_t> instead;  // of invalid ones; two at most
+  bool by_one = true;                              // each
+  bool validity = true;                            // in each, one of the two is invalid
+  bool some_higher = false, some_lower = false;    // than the model's
+  std::uint64_t lost = 0;                          // that should be valid and are not,
+  std::uint64_t kept = 0;                          // and the other way
+  std::uint64_t changed = 0;                       // bits
+  std::map<std::uint64_t, std::uint64_t> instead;  // of invalid ones, how often
 };
 
 Differing look_at(const VectorStream& stream, const TokenWords& expected, const TokenWords& got) {
@@ -34,41 +37,86 @@ Differing look_at(const VectorStream& stream, const TokenWords& expected, const 
     const TokenField& field = fields[index];
     all.unknown = all.unknown || got.unknown(token, field);
     const std::uint64_t right = expected.raw(token, field), wrong = got.raw(token, field);
-    all.by_one = all.by_one && std::abs(expected.value(token, field) - got.value(token, field)) == 1;
+    const std::int64_t by = got.value(token, field) - expected.value(token, field);
+    all.by_one = all.by_one && std::abs(by) == 1;
+    (by > 0 ? all.some_higher : all.some_lower) = true;
     all.validity = all.validity && (right == kInvalidDisparity || wrong == kInvalidDisparity);
     all.changed |= right ^ wrong;
     ++(right == kInvalidDisparity ? all.kept : all.lost);
-    if (right == kInvalidDisparity && all.instead.size() < 2) all.instead.insert(wrong);
+    if (right == kInvalidDisparity) ++all.instead[wrong];
   });
   return all;
 }
 
+// The value that stands for none: the most frequent one where the model's is invalid, if none is invalid in
+// the circuit's, which may have more of them.
+struct InvalidAs {
+  std::uint64_t value = 0;
+  std::uint64_t kept = 0, lost = 0;  // as in Differing, with that number for none
+};
+std::optional<InvalidAs> invalid_as(const VectorStream& stream, const TokenWords& expected,
+                                    const TokenWords& got, const Differing& all) {
+  if (all.kept < kLeastExplained) return std::nullopt;
+  const auto most = std::max_element(all.instead.begin(), all.instead.end(),
+                                     [](const auto& a, const auto& b) { return a.second < b.second; });
+  if (2 * most->second <= all.kept) return std::nullopt;
+  InvalidAs found{most->first, all.kept - most->second, 0};
+  for (std::uint64_t token = 0; token < std::min(expected.size(), got.size()); ++token) {
+    for (const TokenField& field : stream.shape.format.all()) {
+      const std::uint64_t right = expected.raw(token, field), wrong = got.raw(token, field);
+      if (wrong == kInvalidDisparity) return std::nullopt;
+      if (right == wrong || right == kInvalidDisparity) continue;
+      if (wrong != found.value) return std::nullopt;
+      ++found.lost;
+    }
+  }
+  return found;
+}
+
+DifferencePattern only_validity(std::uint64_t kept, std::uint64_t lost) {
+  return {"only_validity",
+          fmt::format("no value is another, only which are valid: {} are that should not be, {} are not that "
+                      "should be",
+                      kept, lost)};
+}
+
+const char* way_of(const Differing& all) {
+  if (all.some_higher && all.some_lower) return "by 1, some too high and some too low";
+  return all.some_higher ? "by 1, all too high" : "by 1, all too low";
+}
+
 }  // namespace
+
+std::vector<DifferencePattern> find_validity(const VectorStream& stream, const TokenWords& expected,
+                                             const TokenWords& got) {
+  const std::vector<TokenField>& fields = stream.shape.format.all();
+  const bool are_disparities = std::all_of(fields.begin(), fields.end(), [](const TokenField& field) {
+    return field.width == static_cast<std::size_t>(kDisparityBits) && field.name.rfind("disparity", 0) == 0;
+  });
+  if (!are_disparities) return {};
+  const Differing all = look_at(stream, expected, got);
+  if (all.unknown || all.changed == 0) return {};
+  if (const auto found = invalid_as(stream, expected, got, all)) {
+    std::vector<DifferencePattern> patterns{
+        {"invalid_as", fmt::format("what is invalid has the value {}", found->value)}};
+    if (found->kept + found->lost > 0) patterns.push_back(only_validity(found->kept, found->lost));
+    return patterns;
+  }
+  if (all.validity) return {only_validity(all.kept, all.lost)};
+  return {};
+}
 
 std::optional<DifferencePattern> find_value_difference(const VectorStream& stream, const TokenWords& expected,
                                                        const TokenWords& got) {
   const std::vector<TokenField>& fields = stream.shape.format.all();
   const Differing all = look_at(stream, expected, got);
   if (all.unknown || all.changed == 0) return std::nullopt;
-  const bool are_disparities = std::all_of(fields.begin(), fields.end(), [](const TokenField& field) {
-    return field.width == static_cast<std::size_t>(kDisparityBits) && field.name.rfind("disparity", 0) == 0;
-  });
-  if (are_disparities && all.validity) {
-    if (all.lost == 0 && all.instead.size() == 1) {
-      return DifferencePattern{"invalid_as",
-                               fmt::format("what is invalid has the value {}", *all.instead.begin())};
-    }
-    return DifferencePattern{
-        "only_validity",
-        fmt::format("no value is another, only which are valid: {} are that should not be, {} are not that "
-                    "should be",
-                    all.kept, all.lost)};
-  }
   const bool are_numbers = std::all_of(fields.begin(), fields.end(), [](const TokenField& field) {
     return field.width > kBitsThatTell && field.name != "code";
   });
   if (!are_numbers) return std::nullopt;
-  if (all.by_one) return DifferencePattern{"off_by_one", "what differs does so by 1: rounding"};
+  if (all.by_one)
+    return DifferencePattern{"off_by_one", fmt::format("what differs does so {}: rounding", way_of(all))};
   std::size_t right = 0;
   while ((all.changed >> right & 1u) == 0) ++right;
   if (right < kBitsThatTell) return std::nullopt;

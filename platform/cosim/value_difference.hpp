@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "platform/cosim/token_comparison.hpp"
 #include "platform/cosim/token_words.hpp"
@@ -9,9 +10,14 @@
 
 namespace parallax {
 
-/// What the values that differ have in common, wherever they lie: of disparities, that only which are valid
-/// differs; of others, that they are off by 1, or that the lowest bits are right. Nothing if some are
-/// unknown.
+/// Of disparities, whether no value is another than the model's but in which are valid: `invalid_as`, where
+/// another number stands for none and does so for all that are invalid; `only_validity`. Both where that
+/// number is another and more are invalid, or less. Nothing if some are unknown.
+std::vector<DifferencePattern> find_validity(const VectorStream& stream, const TokenWords& expected,
+                                             const TokenWords& got);
+
+/// What numbers that differ have in common, wherever they lie: that they are off by 1, and which way, or that
+/// the lowest bits are right. Nothing if some are unknown.
 std::optional<DifferencePattern> find_value_difference(const VectorStream& stream, const TokenWords& expected,
                                                        const TokenWords& got);
 

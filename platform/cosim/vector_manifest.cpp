@@ -130,7 +130,7 @@ ValuePlace VectorManifest::place(const VectorStream& stream, std::uint64_t token
   const TokenShape& shape = stream.shape;
   ValuePlace place;
   if (stream.frame_tokens == 0) return place;
-  place.frame = static_cast<std::int64_t>(token / stream.frame_tokens);
+  place.frame = first_frame + static_cast<std::int64_t>(token / stream.frame_tokens);
   std::uint64_t rest = token % stream.frame_tokens;
   if (shape.row_tokens == 0) return place;
   const std::uint64_t tile_tokens = pass_tokens(stream);

@@ -50,6 +50,7 @@ struct VectorManifest {
   int tile_width = 0;              ///< px
   std::vector<int> tile_begins{};  ///< first column of each tile
   std::int64_t frames = 0;
+  std::int64_t first_frame = 0;  ///< number of the first one: 0 but where some are looked at alone
   std::int64_t clock_hz = 0;
   std::uint64_t interval = 0;           ///< cycles from one firing to the next, where nothing waits
   std::uint64_t latency = 0;            ///< cycles from reading to writing

@@ -79,7 +79,15 @@ class AlteredDump : public ::testing::Test {
   }
   /// The first pattern's name where `change` alters the values of a pixel's fields.
   using Change = std::function<std::uint64_t(const ValuePlace& place, std::uint64_t value)>;
-  std::string pattern(const Change& change) const {
+  std::string pattern(const Change& change) const { return first_pattern(changed(change)); }
+  /// All that is said of it.
+  std::string said(const Change& change) const { return said(changed(change)); }
+  std::string said(const Words& got) const {
+    std::string all;
+    for (const DifferencePattern& one : compare(got).patterns) all += (all.empty() ? "" : "; ") + one.text;
+    return all;
+  }
+  Words changed(const Change& change) const {
     Words got = words_;
     for (std::uint64_t token = 0; token < got.size(); ++token) {
       for (std::size_t field = 0; field < got[token].size(); ++field) {
@@ -88,7 +96,7 @@ class AlteredDump : public ::testing::Test {
                             ((std::uint64_t{1} << width) - 1);
       }
     }
-    return first_pattern(got);
+    return got;
   }
   std::string first_pattern(const Words& got) const {
     const TokenComparison comparison = compare(got);

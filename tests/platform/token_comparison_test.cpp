@@ -149,13 +149,87 @@ TEST_F(AlteredDump, OtherValues) {
   const auto value = [&here](auto other) {
     return [&here, other](const ValuePlace& place, std::uint64_t v) { return here(place) ? other(v) : v; };
   };
-  EXPECT_EQ(pattern(value([](auto v) { return v == 4095 ? 17 : v; })), "invalid_as");
+  EXPECT_EQ(pattern(value([](auto v) { return v == 4095 ? 17 : v; })), "only_validity");  // in a few places
+  const auto all = [](auto change) {
+    return [change](const ValuePlace&, std::uint64_t v) -> std::uint64_t { return change(v); };
+  };
+  EXPECT_EQ(pattern(all([](auto v) { return v == 4095 ? 17 : v; })), "invalid_as");
+  EXPECT_EQ(
+      said(all([](auto v) { return v == 4095 || v % 7 == 1 ? 0 : v; })),
+      fmt::format("what is invalid has the value 0; no value is another, only which are valid: 0 are that "
+                  "should not be, {} are not that should be",
+                  std::count_if(words_.begin(), words_.end(),
+                                [](const auto& w) { return w[0] != 4095 && w[0] % 7 == 1; })));
   EXPECT_EQ(pattern(value([](auto) { return 4095; })), "only_validity");
-  EXPECT_EQ(pattern(value([](auto v) { return v == 4095 ? v : v + 1; })), "off_by_one");
+  const auto by = [&](auto way) { return said(value([way](auto v) { return v == 4095 ? v : v + way(v); })); };
+  EXPECT_EQ(by([](auto) { return 1; }), "what differs does so by 1, all too high: rounding");
+  EXPECT_EQ(by([](auto) { return -1; }), "what differs does so by 1, all too low: rounding");
+  EXPECT_EQ(by([](auto v) { return v % 3 == 0 ? 1 : -1; }),
+            "what differs does so by 1, some too high and some too low: rounding");
   EXPECT_EQ(pattern(value([](auto v) { return v == 4095 ? v : v ^ (8 + v % 3 * 16); })), "upper_bits");
   EXPECT_EQ(pattern(value([](auto v) { return v == 4095 ? v : v ^ (2 + v % 3 * 16); })), "none");
   make(codes(64, 24), 64, 48);  // of codes, whose bits are no number, neither tells
   EXPECT_EQ(pattern(value([](auto v) { return v ^ (8 + v % 3 * 16); })), "none");
+}
+
+// Of a masked window, all that is invalid, and so only a rim differs.
+TEST_F(AlteredDump, InvalidAsZeroInTheRim) {
+  make(test::image_of(disparity_format(), 64), 64, 48);
+  for (std::size_t i = 0; i < words_.size(); ++i) {
+    const std::size_t x = i % 64, y = i / 64;
+    words_[i][0] = x < 2 || x > 61 || y < 2 || y > 45 ? 4095 : words_[i][0] % 4000;
+  }
+  EXPECT_EQ(said([](const ValuePlace&, auto v) { return v == 4095 ? 0 : v; }),
+            "what is invalid has the value 0; only the rim differs, 2 px wide");
+}
+
+// What lies near a border, but not all along it, is no border.
+TEST_F(AlteredDump, ABlobIsNoBorder) {
+  make(codes(64, 24), 64, 48, 2);
+  const auto some = [this](auto is_in) {
+    Words got = words_;
+    for (std::uint64_t token = 0; token < got.size(); ++token) {
+      const ValuePlace place = manifest_.place(stream(), token, 0);
+      if (is_in(place.column, place.row)) got[token][0] ^= 5 + token % 3;
+    }
+    return first_pattern(got);
+  };
+  EXPECT_EQ(some([](auto x, auto y) { return x >= 4 && x <= 8 && y >= 10 && y <= 14 && (x + y) % 2 == 0; }),
+            "none");
+  EXPECT_EQ(some([](auto x, auto y) { return y >= 3 && y <= 5 && x >= 10 && x < 13; }), "none");
+  EXPECT_EQ(some([](auto x, auto y) { return y == 47 && x % 9 == 2; }), "only_last_rows");
+  EXPECT_EQ(some([](auto x, auto y) { return x == 0 && y > 15; }), "only_first_columns");
+  Words got = words_;
+  got[130][0] ^= 1;
+  EXPECT_EQ(first_pattern(got), "one_token");
+}
+
+// The first row is equal, but what comes from the row above would show in the second.
+TEST_F(AlteredDump, RowsAfterTheFirst) {
+  make(codes(64, 24), 64, 48);
+  const auto rows = [this](auto is_in) {
+    return pattern([&](const ValuePlace& place, auto v) {
+      return place.row > 1 || (place.row == 1 && is_in(place.column)) ? v + 1 + v % 3 : v;
+    });
+  };
+  EXPECT_EQ(rows([](auto) { return true; }), "rows_after_first");
+  EXPECT_EQ(rows([](auto x) { return x % 2 == 0; }), "rows_after_first");
+  EXPECT_EQ(rows([](auto x) { return x == 30; }), "none");
+}
+
+// Of a stream that is cut, what did not come is neither equal nor different.
+TEST_F(AlteredDump, WhatDidNotComeIsNoPart) {
+  make(codes(64, 24), 64, 48, 2);
+  const auto cut = [this](std::size_t tokens, auto is_in) {
+    Words got(words_.begin(), words_.begin() + static_cast<std::ptrdiff_t>(tokens));
+    for (std::size_t i = 0; i < tokens; ++i) {
+      if (is_in(i)) got[i][0] ^= 1 + i % 5;
+    }
+    return first_pattern(got);
+  };
+  EXPECT_EQ(cut(295, [](auto) { return true; }), "none");
+  EXPECT_EQ(cut(64 * 40, [](auto i) { return i < 128; }), "only_first_rows");
+  EXPECT_EQ(cut(64 * 48, [](auto i) { return i % 13 == 5; }), "none");
 }
 
 // A line near the border is no border, and one that is masked cannot differ.

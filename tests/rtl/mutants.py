@@ -42,6 +42,7 @@ BENCHES = {
 HANDSHAKE = {"handshake"}  # the test bench names the port, or tokens are lost or moved
 MOVED = {"token_lost", "tokens_lost", "token_doubled", "tokens_inserted", "truncated", "surplus", "constant_latency"}
 MOVED |= {"row_lost", "rows_lost", "row_doubled", "rows_inserted", "column_lost", "column_doubled", "every_second", "each_twice"}
+MOVED |= {"tokens_doubled", "column_inserted"}
 COLUMN = {"one_column_late", "one_column_early", "constant_latency", "token_lost", "token_doubled"}
 ROW = {"one_row_late", "one_row_early", "constant_latency", "tokens_lost", "tokens_inserted", "row_lost", "row_doubled"}
 BORDER = {"only_rim", "only_first_rows", "only_last_rows", "only_first_columns", "only_last_columns"}
