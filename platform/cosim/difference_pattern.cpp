@@ -7,6 +7,7 @@
 #include <set>
 #include <string>
 
+#include "platform/cosim/absent_disparity.hpp"
 #include "platform/cosim/difference_region.hpp"
 #include "platform/cosim/frame_order.hpp"
 #include "platform/cosim/frame_patterns.hpp"
@@ -80,6 +81,7 @@ Patterns of_all_tokens(const TokenComparison& comparison, const TokenWords& expe
   if (found.empty() && !may_be_delay) found = find_delay(comparison, expected, got, differing);
   if (found.empty()) found = find_moved(comparison, expected, got);
   if (found.empty()) append(found, find_value_mapping(comparison, expected, got, differing));
+  if (found.empty()) append(found, find_absent_disparity(comparison, expected, got));
   if (found.empty()) append(found, find_path_origin(comparison, expected, got));
   if (found.empty()) found = find_joint_patterns(comparison, expected, got);
   return found;
