@@ -181,12 +181,12 @@ void describe(Schema& schema, SubpixelConfig& config) {
                  {"equiangular", SubpixelCurve::kEquiangular}},
                 "Curve through the costs at the minimum and beside it; none gives whole disparities.",
                 chosen("the paper, section Subpixel Optimization, does not name the curve"));
-  schema.choice(
-      "subpixel.rounding", config.rounding,
-      {{"truncate", SubpixelRounding::kTruncate}, {"nearest", SubpixelRounding::kNearest}},
-      "How the distance from the whole disparity is brought to 1/16 px: toward zero, or to the nearest, halves "
-      "away from zero, and to 8/16 only where the cost on that side is as low as the winner's.",
-      chosen("not published"));
+  schema.choice("subpixel.rounding", config.rounding,
+                {{"truncate", SubpixelRounding::kTruncate}, {"nearest", SubpixelRounding::kNearest}},
+                "How the distance from the whole disparity is brought to 1/16 px: toward zero, or to the "
+                "nearest, halves "
+                "away from zero, and to 8/16 only where the cost on that side is as low as the winner's.",
+                chosen("not published"));
   schema.choice("subpixel.winner", config.winner,
                 {{"lowest", TieRule::kLowest}, {"highest", TieRule::kHighest}},
                 "Which of several equally cheap disparities wins.", chosen("not published"));
