@@ -18,7 +18,7 @@ struct FifoDescription {
   bool two_clocks = false;
   std::int64_t write_to_read = 1;  ///< edges
   std::int64_t read_to_write = 1;
-  std::int64_t depth = 1;             ///< tokens
+  std::int64_t depth = 1;  ///< tokens
   /// Of the writer's clock; with two clocks the most of all captures, as it depends on how they stand to each
   /// other.
   std::int64_t not_ready_cycles = 0;
