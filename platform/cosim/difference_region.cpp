@@ -242,9 +242,10 @@ class RegionSearch {
     }
   }
 
-  // Whether a line has at least half as many differences as those that have any have on the average.
+  // Whether a line has at least a quarter of the differences that those with any have on the average: what
+  // comes from the line before grows from line to line.
   bool is_as_others(std::uint64_t in_line, std::size_t lines) const {
-    return 2 * in_line * lines >= comparison_.different_values;
+    return 4 * in_line * lines >= comparison_.different_values;
   }
 
   bool is_one_disparity() const { return comparison_.disparities.size() == 1; }

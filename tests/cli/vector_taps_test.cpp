@@ -251,10 +251,8 @@ TEST_F(VectorTaps, WhereAPathGoesWrongIsTold) {
                              "behind a pixel that does\n"),
             std::string::npos)
       << outcome.out;
-  EXPECT_NE(outcome.out.find(
-                "path nw: the first row is equal, those after it differ: what comes from the row above\n"),
-            std::string::npos)
-      << outcome.out;
+  // Where it comes in says more than that the first row is equal.
+  EXPECT_EQ(outcome.out.find("the first row is equal"), std::string::npos) << outcome.out;
   const json tree = compare("path_nw=wrong.memh");
   EXPECT_EQ(tree.at("stream"), "path_nw");
   EXPECT_EQ(tree.at("pattern"), "path_origin");
@@ -277,10 +275,7 @@ TEST_F(VectorTaps, OfASecondPassArePlacedInTheImage) {
             "path se: it goes wrong at disparity 2, from row 14 upwards; all else that differs lies behind a "
             "pixel that "
             "does");
-  EXPECT_EQ(names(patterns), (std::vector<std::string>{"path_origin", "one_disparity", "rows_after_first",
-                                                       "only_first_frame"}));
-  EXPECT_EQ(patterns.at(2).at("text"),
-            "path se: the last row is equal, those above it differ: what comes from the row below");
+  EXPECT_EQ(names(patterns), (std::vector<std::string>{"path_origin", "one_disparity", "only_first_frame"}));
 }
 
 TEST_F(VectorTaps, APathThatIsMissingOrThereTwiceIsNamed) {
