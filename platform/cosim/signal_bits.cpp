@@ -35,8 +35,8 @@ std::optional<NamedBits> read_named_bits(const std::string& word) {
 }
 
 bool is_padded_tdata(const std::string& name, std::size_t signal_width, std::size_t width) {
-  constexpr std::size_t kByte = 8;
-  return signal_width == (width + kByte - 1) / kByte * kByte && ends_with(name, "tdata");
+  constexpr std::size_t kTdataStep = 8;
+  return signal_width == (width + kTdataStep - 1) / kTdataStep * kTdataStep && ends_with(name, "tdata");
 }
 
 bool ends_with(const std::string& name, const std::string& ending) {
