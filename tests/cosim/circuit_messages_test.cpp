@@ -98,7 +98,7 @@ INSTANTIATE_TEST_SUITE_P(
                "in_disparity.data, in_disparity.valid, in_disparity.ready, in_disparity.first, "
                "in_disparity.last, "
                "in_disparity.keep, in_disparity.row, in_disparity.column, in_disparity.group, "
-               "out_disparity.data, "
+               "in_disparity.line_valid, in_disparity.frame_valid, out_disparity.data, "
                "out_disparity.valid, out_disparity.ready, out_disparity.first, out_disparity.last, enable"},
         Misfit{"UnknownRole", both(), "--circuit-pins in_disparity.date=in_data",
                "--circuit-pins in_disparity.date=in_data: noise_reduction has no such role; the nearest is "

@@ -78,7 +78,8 @@ class CircuitPair : public ::testing::Test {
       text.insert(text.find(right) + right.size(), unpack_fault);
     }
     std::ofstream(program / "unpack.sv") << text;
-    return census(program, census_fault) + "--circuit unpack_left=unpack.sv ";
+    return census(program, census_fault) + "--circuit unpack_left=unpack.sv --circuit-define LAST=127 " +
+           "--circuit-include " + source_path("tests/package/include") + " ";
   }
   nlohmann::json circuits(const Outcome& outcome) const {
     return nlohmann::json::parse(outcome.out).at("circuits");
