@@ -46,6 +46,7 @@ MOVED |= {"tokens_doubled", "column_inserted"}
 COLUMN = {"one_column_late", "one_column_early", "constant_latency", "token_lost", "token_doubled"}
 ROW = {"one_row_late", "one_row_early", "constant_latency", "tokens_lost", "tokens_inserted", "row_lost", "row_doubled"}
 BORDER = {"only_rim", "only_first_rows", "only_last_rows", "only_first_columns", "only_last_columns"}
+BORDER |= {"one_row", "one_column"}  # where it is one too many or too few that are taken for the border
 STATE = {"rows_after_first", "columns_after_first", "frames_after_first"}  # what comes from before
 LANE = {"one_disparity", "only_first_disparity", "only_last_disparity", "one_group", "one_field"}
 COMPARISON = {"inverted_comparison", "inverted"}
