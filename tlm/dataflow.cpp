@@ -15,7 +15,7 @@ namespace {
 
 // Each look for periodic motion that fails doubles the firings until the next one within a run(), so many
 // times.
-constexpr unsigned kMostPatience = 2;
+constexpr unsigned kMostPatience = 5;
 
 }  // namespace
 

@@ -46,7 +46,8 @@ class Dataflow final : public sc_core::sc_module {
   /// cost little.
   static constexpr std::uint64_t kLeapInterval = 150;
 
-  /// `leap_interval`: 0 for no leaps: every firing is gone through one by one.
+  /// `leap_interval`: 0 for neither leaps nor batches: every firing is gone through one by one. One larger
+  /// than the firings of a run: batches alone.
   explicit Dataflow(const sc_core::sc_module_name& name, std::uint64_t leap_interval = kLeapInterval);
   ~Dataflow() override;
 
@@ -63,6 +64,8 @@ class Dataflow final : public sc_core::sc_module {
   void bring_up_to_date() const;
   const std::vector<StreamBase*>& streams() const { return streams_; }
   const std::vector<Stage*>& stages() const { return stages_; }
+  /// Whether stages may go through all firings at hand at once (stage_batch.cpp).
+  bool batches() const { return leap_interval_ != 0; }
   /// Firings that leaps have gone over, of those that statistics count.
   std::uint64_t leaped_firings() const;
 

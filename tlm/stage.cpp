@@ -6,8 +6,9 @@
 #include <algorithm>
 #include <stdexcept>
 
-namespace parallax {
+#include "tlm/firing_rule.hpp"
 
+namespace parallax {
 Stage::Stage(const sc_core::sc_module_name& name, const ClockDomain& clock, Dataflow& dataflow,
              std::uint32_t latency)
     : sc_module(name), clock_(clock), dataflow_(dataflow), latency_(latency) {
@@ -64,7 +65,11 @@ Stage::Ports Stage::gather(const StreamsOfPorts& ports) {
   }
   std::size_t begin = 0;
   for (const std::size_t end : ends) {
-    all.of_mask.push_back({all.streams.data() + begin, all.streams.data() + end});
+    Streams streams{all.streams.data() + begin, all.streams.data() + end};
+    streams.in_batches = fit_batches(streams);
+    streams.at_memory = std::any_of(streams.begin(), streams.end(),
+                                    [](const StreamBase* stream) { return stream->at_memory(); });
+    all.of_mask.push_back(streams);
     begin = end;
   }
   return all;
@@ -81,8 +86,13 @@ void Stage::start_of_simulation() { dataflow_.wake(*this); }
 void Stage::advance() {
   if (schedule_.empty()) return;
   const std::uint64_t before = statistics_.firings;
-  drain();
-  while (fire_writers() || fire()) drain();
+  for (;;) {
+    const Batch batch = fire_batch();
+    if (batch == Batch::kStopped) break;
+    if (batch == Batch::kMoved) continue;
+    drain();
+    if (!fire()) break;
+  }
   dataflow_.count_firings(statistics_.firings - before);
 }
 
@@ -132,23 +142,19 @@ bool Stage::fire() {
   }
   if (!known) return false;
 
-  const Cycles ready = std::max(free_, inputs);
-  const Cycles start = std::max(ready, room);
+  const auto [ready, start] = FiringStart(free_, inputs, room);
   const Cycles starved = ready - free_;
   const Cycles blocked = start - ready;
   const StageActivity work = phase.idle ? StageActivity::kBlanking : StageActivity::kBusy;
   StageActivity input_wait = StageActivity::kStarved;
   if (starved > Cycles(0)) {
-    if (latest->at_memory()) {
-      input_wait = frame_begins ? StageActivity::kBlanking : StageActivity::kMemory;
-    } else if (latest->token_behind_synchroniser(inputs, free_)) {
-      input_wait = StageActivity::kSynchroniser;
-    }
+    input_wait = frame_begins && latest->at_memory() ? StageActivity::kBlanking
+                                                     : wait_for_token(*latest, inputs, free_);
     statistics_.of(input_wait) += starved;
   }
   if (blocked > Cycles(0)) {
     if (latency_ == 0) {
-      room_wait = wait_for_room(*fullest, ready);
+      room_wait = wait_for_room(*fullest, room, ready);
       fullest->count_blocked(blocked);
     }
     statistics_.of(room_wait) += blocked;
@@ -173,52 +179,9 @@ bool Stage::fire() {
     Firing& firing = enter_pipeline(start, phase.produce);
     if (latency_ == 0) {
       ++left_;
-      write(firing, start);
+      write(firing);
     }
   }
-  step();
-  return true;
-}
-
-// The firings at hand that read nothing and write one stream, without latency, as fire() would go through
-// them one by one: most firings that take no part in periodic motion are of this kind, words out of a burst.
-// False if there were none.
-bool Stage::fire_writers() {
-  const Phase& phase = *phase_;
-  if (phase.consume != 0 || latency_ != 0 || observed_ != nullptr) return false;
-  StreamBase* const stream = outputs_.of_mask[phase.produce].only();
-  if (stream == nullptr || next_.is_start()) return false;
-  const std::uint64_t most =
-      std::min<std::uint64_t>(phase.count - next_.count, fire_limit_ - statistics_.firings);
-  const Cycles interval(phase.interval);
-  std::uint64_t fired = 0;
-  for (; fired < most && stream->write_date_known(); ++fired) {
-    const Cycles room = stream->writable_at();
-    const Cycles start = std::max(free_, room);
-    StageActivity wait = StageActivity::kBlocked;
-    if (start > free_) {
-      wait = wait_for_room(*stream, free_);
-      statistics_.of(wait) += start - free_;
-      stream->count_blocked(start - free_);
-    }
-    if (listeners_.any()) {
-      const FiringDates dates{
-          free_, free_,   start, phase.interval, StageActivity::kBusy, StageActivity::kStarved,
-          wait,  nullptr, stream};
-      for (StageListener* listener : listeners_) listener->fired(*this, dates);
-    }
-    free_ = start + interval;
-    starts_[(statistics_.firings + fired) % kStartsKept] = start;
-    enter_pipeline(start, phase.produce);
-    if (frame_->first_write < Cycles(0)) frame_->first_write = start;
-    stream->mark_written(start, Cycles(0));
-  }
-  if (fired == 0) return false;
-  left_ = entered_;
-  last_write_ = frame_->last_write = frame_->last_firing = free_ - interval;
-  statistics_.busy += interval * fired;
-  statistics_.firings += fired;
-  next_.count += static_cast<std::uint32_t>(fired - 1);
   step();
   return true;
 }
@@ -226,13 +189,13 @@ bool Stage::fire_writers() {
 void Stage::drain() {
   while (left_ != entered_) {
     Firing& firing = pipe_[left_ & pipe_mask_];
-    if (!write(firing, firing.start + Cycles(latency_))) return;
+    if (!write(firing)) return;
     ++left_;
   }
 }
 
 // Writes a firing's tokens if it is known when all its outputs have room.
-bool Stage::write(Firing& firing, Cycles earliest) {
+bool Stage::write(Firing& firing) {
   bool known = true;
   Cycles room(0);
   const StreamBase* latest = nullptr;
@@ -247,7 +210,8 @@ bool Stage::write(Firing& firing, Cycles earliest) {
     }
   }
   if (!known) return false;
-  const Cycles wanted = std::max(earliest, last_write_ + Cycles(1));
+  const FiringEnd end(firing.start, latency_, last_write_, room);
+  const Cycles wanted = end.wanted;
   if (observed_ != nullptr && latency_ != 0) {
     for (StreamBase* stream : produced) stream->watch_write(wanted);
   }
@@ -255,7 +219,7 @@ bool Stage::write(Firing& firing, Cycles earliest) {
   firing.left = last_write_;
   const Cycles blocked = last_write_ - wanted;
   firing.room = blocked > Cycles(0) ? latest : nullptr;
-  firing.wait = blocked > Cycles(0) ? wait_for_room(*latest, wanted) : StageActivity::kBlocked;
+  firing.wait = blocked > Cycles(0) ? wait_for_room(*latest, room, wanted) : StageActivity::kBlocked;
   for (StreamBase* stream : produced) {
     stream->mark_written(last_write_, stream == latest ? blocked : Cycles(0));
   }
@@ -263,11 +227,18 @@ bool Stage::write(Firing& firing, Cycles earliest) {
   return true;
 }
 
-// What a wait for room in `stream` counts as that began in cycle `wanted`.
-StageActivity Stage::wait_for_room(const StreamBase& stream, Cycles wanted) {
+// What a wait for the next token of `stream` counts as, or for its next slot, which is there in cycle `date`
+// and was wanted in cycle `wanted`.
+StageActivity Stage::wait_for_token(const StreamBase& stream, Cycles date, Cycles wanted) {
   if (stream.at_memory()) return StageActivity::kMemory;
-  return stream.slot_behind_synchroniser(stream.writable_at(), wanted) ? StageActivity::kSynchroniser
-                                                                       : StageActivity::kBlocked;
+  return stream.token_behind_synchroniser(date, wanted) ? StageActivity::kSynchroniser
+                                                        : StageActivity::kStarved;
+}
+
+StageActivity Stage::wait_for_room(const StreamBase& stream, Cycles date, Cycles wanted) {
+  if (stream.at_memory()) return StageActivity::kMemory;
+  return stream.slot_behind_synchroniser(date, wanted) ? StageActivity::kSynchroniser
+                                                       : StageActivity::kBlocked;
 }
 
 void Stage::note_write(std::uint32_t number, Cycles cycle) {

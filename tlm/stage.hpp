@@ -113,6 +113,7 @@ class Stage : public sc_core::sc_module, public Actor {
   // the pipeline, the position, the statistics. Accessors would show every member and add nothing that holds.
   friend class Leap;
   class WritingSide;
+  class BatchSide;
   static constexpr std::uint64_t kStartsKept = 2 * kLeapHistory;
 
   struct Firing {  // one that writes
@@ -126,10 +127,10 @@ class Stage : public sc_core::sc_module, public Actor {
   struct Streams {  // of one PortMask, as a piece of Ports::streams
     StreamBase** first = nullptr;
     StreamBase** last = nullptr;
+    bool in_batches = false;  // fire_batch() can go through them
+    bool at_memory = false;   // one of them is
     StreamBase** begin() const { return first; }
     StreamBase** end() const { return last; }
-    /// The only one, or nullptr.
-    StreamBase* only() const { return last - first == 1 ? *first : nullptr; }
   };
   struct Ports {  // all one way
     std::size_t count = 0;
@@ -156,10 +157,22 @@ class Stage : public sc_core::sc_module, public Actor {
   void bind_ports(const StreamsOfPorts& in, const StreamsOfPorts& out);
   void share_ports(StreamsOfPorts in, StreamsOfPorts out);
   static Ports gather(const StreamsOfPorts& ports);
+  static bool fit_batches(const Streams& streams);
   static std::vector<const StreamBase*> at_port(const Ports& ports, unsigned port);
 
+  enum class Batch {
+    kNone,     // nothing that can be done at once
+    kMoved,    // there may be more
+    kStopped,  // until a date is known that the streams have been asked for
+  };
   bool fire();
-  bool fire_writers();
+  Batch fire_batch();
+  struct Alike {
+    std::size_t firings = 0;
+    Cycles cycles;  // that they keep the stage busy
+  };
+  Alike take_alike(std::uint64_t most, std::uint32_t* intervals);
+  void note_writes(const Cycles* cycles, std::size_t count);
   Firing& enter_pipeline(Cycles start, PortMask produce) {
     Firing& firing = pipe_[entered_++ & pipe_mask_];
     firing.start = firing.left = start;
@@ -171,11 +184,12 @@ class Stage : public sc_core::sc_module, public Actor {
   }
   bool can_fire() const;
   void drain();
-  bool write(Firing& firing, Cycles earliest);
+  bool write(Firing& firing);
   void note_write(std::uint32_t frame, Cycles cycle);
   void begin_frame(Cycles cycle);
   void observe(const Phase& phase, Streams consumed);
-  static StageActivity wait_for_room(const StreamBase& stream, Cycles wanted);
+  static StageActivity wait_for_token(const StreamBase& stream, Cycles date, Cycles wanted);
+  static StageActivity wait_for_room(const StreamBase& stream, Cycles date, Cycles wanted);
   void step();
   bool next_phase(Position& position) const {
     position.count = 0;

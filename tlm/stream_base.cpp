@@ -4,13 +4,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "tlm/error.hpp"
-#include "tlm/leap_history.hpp"
+#include "tlm/ring_copy.hpp"
 
 namespace parallax {
 namespace {
+
+// What settle() counts; all zero between two calls, which sets to zero no more than was counted.
+thread_local std::array<Cycles, Occupancy::kMaxBins> at_least;
 
 // Beyond the depth, a ring holds the dates that settle() has not counted yet, and the history in which
 // periodic motion is recognised.
@@ -93,6 +97,51 @@ void StreamBase::attach_reader(const std::string& module, Actor* actor) {
   }
 }
 
+void StreamBase::readable_at(std::size_t count, Cycles* dates) const {
+  copy_out_of_ring(write_dates_.data(), history(), statistics_.read, count, dates);
+  if (same_frequency_) {
+    const Cycles offset(config_.write_to_read);
+    for (std::size_t i = 0; i < count; ++i) dates[i] += offset;
+  } else {
+    for (std::size_t i = 0; i < count; ++i) dates[i] = forward(dates[i]);
+  }
+}
+
+void StreamBase::writable_at(std::size_t count, Cycles* dates) const {
+  if (statistics_.written < config_.depth) {
+    for (std::size_t i = 0; i < count; ++i) dates[i] = writable_at(i);
+    return;
+  }
+  copy_out_of_ring(read_dates_.data(), history(), statistics_.written - config_.depth, count, dates);
+  if (same_frequency_) {
+    const Cycles offset(config_.read_to_write);
+    for (std::size_t i = 0; i < count; ++i) dates[i] += offset;
+  } else {
+    for (std::size_t i = 0; i < count; ++i) dates[i] = backward(dates[i]);
+  }
+}
+
+void StreamBase::mark_read(const Cycles* cycles, std::size_t count, Cycles starved) {
+  const std::uint64_t before = statistics_.read;
+  copy_into_ring(cycles, count, read_dates_.data(), history(), before);
+  statistics_.starved_on_empty += starved;
+  statistics_.read += count;
+  last_read_ = cycles[count - 1];
+  if (listeners_.any()) std::for_each(cycles, cycles + count, [this](Cycles cycle) { notify_read(cycle); });
+  if (statistics_.read / kSettleInterval != before / kSettleInterval) settle();
+  if (writer_waits_) wake_writer();
+}
+
+void StreamBase::mark_written(const Cycles* cycles, std::size_t count, Cycles blocked) {
+  copy_into_ring(cycles, count, write_dates_.data(), history(), statistics_.written);
+  statistics_.blocked_on_full += blocked;
+  statistics_.written += count;
+  last_write_ = cycles[count - 1];
+  if (listeners_.any())
+    std::for_each(cycles, cycles + count, [this](Cycles cycle) { notify_written(cycle); });
+  if (reader_waits_) wake_reader();
+}
+
 void StreamBase::notify_read(Cycles cycle) {
   for (StreamListener* listener : listeners_) listener->read(*this, cycle);
 }
@@ -123,42 +172,97 @@ void StreamBase::wake_reader() {
 // that nothing unknown can come before it: each side's next date is later than its last one. With both
 // offsets 0 a token may free its slot in the cycle that writes it; the level is then one too low, but for no
 // time.
-void StreamBase::settle() const {
-  std::uint64_t writes = settled_writes_;
-  std::uint64_t frees = freed_;
+template <class Rise, class Fall>
+void StreamBase::go_through_levels(Rise rise, Fall fall) const {
   const std::uint64_t written = statistics_.written;
   const std::uint64_t read = statistics_.read;
-  const auto next_write = [&] {
-    return writes < written ? write_dates_[writes & mask_] : last_write_ + Cycles(1);
-  };
-  const auto next_room = [&] {
-    return backward(frees < read ? read_dates_[frees & mask_] : last_read_ + Cycles(1));
-  };
-  if (writes == written && frees == read) return;
-  Cycles write = next_write();
-  Cycles room = next_room();
-  while (writes < written || frees < read) {
-    const bool leaves =
-        room <= write;  // first, where both come in one cycle: a token in its last cycle still counts
-    if (leaves ? frees == read : writes == written) break;
-    const Cycles date = leaves ? room : write;
-    if (date > settled_until_) {
-      const std::uint64_t cycles = (date - settled_until_).size();
-      occupancy_.add(writes - frees, cycles);
-      if (counted_ != nullptr) counted_->emplace_back(writes - frees, cycles);
-      settled_until_ = date;
+  std::uint64_t writes = settled_writes_;
+  std::uint64_t frees = freed_;
+  const auto write_at = [&](std::uint64_t token) { return write_dates_[token & mask_]; };
+  const auto room_at = [&](std::uint64_t token) { return backward(read_dates_[token & mask_]); };
+  if (writes != written && frees != read) {
+    Cycles write = write_at(writes);
+    Cycles room = room_at(frees);
+    for (;;) {
+      // First a token that leaves, where both come in one cycle: in its last cycle it still counts.
+      if (room <= write) {
+        fall(writes - frees, room);
+        if (++frees == read) break;
+        room = room_at(frees);
+      } else {
+        ++writes;
+        rise(writes - frees, write);
+        if (writes == written) break;
+        write = write_at(writes);
+      }
     }
-    if (leaves) {
-      ++frees;
-      room = next_room();
-    } else {
-      ++writes;
-      statistics_.high_water = std::max(statistics_.high_water, writes - frees);
-      write = next_write();
-    }
+  }
+  for (const Cycles next = backward(last_read_ + Cycles(1)); writes != written && frees == read;) {
+    const Cycles write = write_at(writes);
+    if (next <= write) break;
+    ++writes;
+    rise(writes - frees, write);
+  }
+  for (const Cycles next = last_write_ + Cycles(1); frees != read && writes == written;) {
+    const Cycles room = room_at(frees);
+    if (room > next) break;
+    fall(writes - frees, room);
+    ++frees;
   }
   settled_writes_ = writes;
   freed_ = frees;
+}
+
+void StreamBase::settle() const {
+  if (settled_writes_ == statistics_.written && freed_ == statistics_.read) return;
+  if (counted_ != nullptr || occupancy_.bin_width() != 1) return settle_one_by_one();
+  // The time at level l or above is the sum of the dates at which it falls below l, less those at which it
+  // rises to l: an addition a date.
+  const auto level = [this] { return static_cast<std::int64_t>(settled_writes_ - freed_); };
+  const std::int64_t level_before = level();
+  std::int64_t lowest = level_before;
+  std::int64_t highest = level_before;
+  Cycles until = settled_until_;
+  go_through_levels(
+      [&](std::uint64_t to, Cycles date) {
+        at_least[to] -= date;
+        highest = std::max(highest, static_cast<std::int64_t>(to));
+        until = date;
+      },
+      [&](std::uint64_t from, Cycles date) {
+        at_least[from] += date;
+        lowest = std::min(lowest, static_cast<std::int64_t>(from) - 1);
+        until = date;
+      });
+  const std::int64_t level_after = level();
+  Cycles above(0);
+  for (std::int64_t l = highest; l > lowest; --l) {
+    Cycles here = std::exchange(at_least[l], Cycles(0));
+    if (l <= level_before) here -= settled_until_;
+    if (l <= level_after) here += until;
+    occupancy_.add(l, (here - above).count());
+    above = here;
+  }
+  if (lowest >= 0) occupancy_.add(lowest, (until - settled_until_ - above).count());
+  statistics_.high_water = std::max<std::uint64_t>(statistics_.high_water, highest);
+  settled_until_ = until;
+}
+
+// As settle(), for deep FIFOs and for Leap.
+void StreamBase::settle_one_by_one() const {
+  const auto pass = [this](std::uint64_t level, Cycles date) {
+    if (date <= settled_until_) return;
+    const std::uint64_t cycles = (date - settled_until_).size();
+    occupancy_.add(level, cycles);
+    if (counted_ != nullptr) counted_->emplace_back(level, cycles);
+    settled_until_ = date;
+  };
+  go_through_levels(
+      [&](std::uint64_t to, Cycles date) {
+        pass(to - 1, date);
+        statistics_.high_water = std::max(statistics_.high_water, to);
+      },
+      pass);
 }
 
 void StreamBase::fill(FifoFill& fill) const {

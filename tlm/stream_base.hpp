@@ -11,6 +11,7 @@
 #include "tlm/clock_domain.hpp"
 #include "tlm/dataflow.hpp"
 #include "tlm/fifo_kind.hpp"
+#include "tlm/leap_history.hpp"
 #include "tlm/listeners.hpp"
 #include "tlm/occupancy.hpp"
 #include "tlm/units.hpp"
@@ -132,6 +133,8 @@ class StreamBase : public sc_core::sc_prim_channel, public virtual sc_core::sc_i
     return config_.kind == FifoKind::kAsynchronous && statistics_.written >= config_.depth &&
            date - Cycles(config_.synchroniser_stages.to_writer) <= wanted;
   }
+  /// Whether waits at this stream may count as different things, so that each is to be asked.
+  bool waits_differ() const { return config_.kind == FifoKind::kAsynchronous; }
   const ClockDomain& writer_clock() const { return writer_clock_; }
   const ClockDomain& reader_clock() const { return reader_clock_; }
   bool at_memory() const { return config_.at_memory; }
@@ -220,6 +223,21 @@ class StreamBase : public sc_core::sc_prim_channel, public virtual sc_core::sc_i
   /// The writing actor stops here until there is known to be room.
   void wait_for_room() { writer_waits_ = true; }
 
+  // For a Stage that goes through many tokens, or slots, at once (stage_batch.cpp): as above one by one.
+
+  static constexpr std::size_t kLargestBatch = 32;
+
+  /// Tokens whose dates are known, slots of which it is known when they are free.
+  std::uint64_t tokens_known() const { return statistics_.written - statistics_.read; }
+  std::uint64_t slots_known() const { return statistics_.read + config_.depth - statistics_.written; }
+  /// When each of the next `count` tokens can be read (slots be written); they must be known.
+  void readable_at(std::size_t count, Cycles* dates) const;
+  void writable_at(std::size_t count, Cycles* dates) const;
+  /// The next `count` tokens, 1 to kLargestBatch, are read (written) in these cycles, having held their
+  /// reader (writer) back by so many cycles in all.
+  void mark_read(const Cycles* cycles, std::size_t count, Cycles starved);
+  void mark_written(const Cycles* cycles, std::size_t count, Cycles blocked);
+
   // For a Stage: its firing, when it is not mark_written() that says so.
 
   /// The next token to write had its writer wait for so many cycles.
@@ -296,13 +314,17 @@ class StreamBase : public sc_core::sc_prim_channel, public virtual sc_core::sc_i
     return writer_clock_.first_edge_after(reader_clock_, read) + Cycles(config_.read_to_write - 1);
   }
   void settle() const;
+  template <class Rise, class Fall>
+  void go_through_levels(Rise rise, Fall fall) const;
+  void settle_one_by_one() const;
   void notify_read(Cycles cycle);
   void notify_written(Cycles cycle);
   void wake_reader();
   void wake_writer();
 
-  // Reads between two counts of the occupancy; the rings hold the dates until then.
+  // Reads between two counts of the occupancy; the rings hold the dates until then, and those of a batch.
   static constexpr std::uint64_t kSettleInterval = 16;
+  static_assert(kSettleInterval + kLargestBatch <= kLeapHistory);
 
   const FifoConfig config_;
   Dataflow& dataflow_;

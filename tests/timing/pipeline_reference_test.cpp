@@ -22,7 +22,8 @@ struct Outcome {
 
 Outcome compare(Depths depths) {
   const PipelineCase c = random_pipeline(depths, kFrames);
-  const auto leap_interval = *rc::gen::element<std::uint64_t>(1, 50, Dataflow::kLeapInterval);
+  const auto leap_interval =
+      *rc::gen::element<std::uint64_t>(1, 50, Dataflow::kLeapInterval, std::uint64_t{1} << 40);
   Outcome outcome;
   outcome.differences = in_child([&] {
     PipelineSimulation simulation(c, leap_interval);
