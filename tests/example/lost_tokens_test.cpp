@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
+#include <regex>
 #include <string>
 
 #include "modules/matching_stage.hpp"
@@ -123,10 +124,18 @@ std::string fault_of_groups(std::uint32_t parallelism) {
 
 TEST(LostTokens, GroupsOfAnotherSizeAreReported) {
   const std::string begin = std::string("Error: ") + kReport + ": what stands in the slot matching ";
-  EXPECT_EQ(fault_of_groups(8),
-            begin +
-                "has handed over 46080 values for the first 1441 tokens of frame 0, which "
-                "have 32 each: row 3 has 288 of 384 tokens, at stream costs_subpixel");
+  // When it is noticed depends on how far dates run ahead of values, not what is said then.
+  const std::string few = fault_of_groups(8);
+  const std::regex text(
+      "(.*)has handed over (\\d+) values for the first (\\d+) tokens of frame 0, which have 32 each: row "
+      "(\\d+) has (\\d+) of 384 tokens, at stream costs_subpixel");
+  std::smatch found;
+  ASSERT_TRUE(std::regex_match(few, found, text)) << few;
+  EXPECT_EQ(found[1], begin);
+  const int values = std::stoi(found[2]);
+  EXPECT_EQ(values % (8 * 384), 0) << "whole rows, of groups of 8";
+  EXPECT_EQ(std::stoi(found[3]), values / 32 + 1) << "the first that it has too few values for";
+  EXPECT_EQ(std::stoi(found[4]) * 384 + std::stoi(found[5]), values / 32);
   EXPECT_EQ(fault_of_groups(32), "");
   EXPECT_EQ(fault_of_groups(64), begin +
                                      "hands over more than the 589824 values of frame 0, 32 a token, at "
