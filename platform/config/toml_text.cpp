@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cctype>
 #include <cerrno>
 #include <cstring>
@@ -21,9 +22,12 @@ std::string content_of(const std::filesystem::path& file, const std::string& wha
   std::ifstream stream(file, std::ios::binary);
   if (!stream)
     throw UserError(fmt::format("{}: cannot read the {}: {}", file.string(), what, std::strerror(errno)));
-  std::string content(kMostBytes + 1, '\0');
-  stream.read(content.data(), static_cast<std::streamsize>(content.size()));
-  content.resize(static_cast<std::size_t>(stream.gcount()));
+  std::string content;
+  // Piece by piece: a buffer for the largest file would take thousands of pages at each start of the program.
+  for (std::array<char, 1 << 14> piece; stream && content.size() <= kMostBytes;) {
+    stream.read(piece.data(), piece.size());
+    content.append(piece.data(), static_cast<std::size_t>(stream.gcount()));
+  }
   if (content.size() > kMostBytes) {
     throw UserError(fmt::format("{}: has more than {} MiB, too much for a {} file", file.string(),
                                 kMostBytes >> 20, what));
