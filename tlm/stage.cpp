@@ -9,6 +9,7 @@
 #include "tlm/firing_rule.hpp"
 
 namespace parallax {
+
 Stage::Stage(const sc_core::sc_module_name& name, const ClockDomain& clock, Dataflow& dataflow,
              std::uint32_t latency)
     : sc_module(name), clock_(clock), dataflow_(dataflow), latency_(latency) {
@@ -215,7 +216,7 @@ bool Stage::write(Firing& firing) {
   if (observed_ != nullptr && latency_ != 0) {
     for (StreamBase* stream : produced) stream->watch_write(wanted);
   }
-  last_write_ = std::max(wanted, room);
+  last_write_ = end.left;
   firing.left = last_write_;
   const Cycles blocked = last_write_ - wanted;
   firing.room = blocked > Cycles(0) ? latest : nullptr;
