@@ -40,6 +40,12 @@ class DramAddress {
     }
     return {};
   }
+  /// How many bursts from the one at `address` on lie one after the other in its row.
+  std::uint64_t bursts_in_row(std::uint64_t address) const {
+    if (mapping_ == DramMapping::kRowBankColumnGroup) return 1;
+    return burst_bytes_.quotient(row_bytes_.value() - row_bytes_.remainder(address) + burst_bytes_.value() -
+                                 1);
+  }
 
  private:
   // Divides by what is a power of two in nearly all devices.

@@ -82,24 +82,43 @@ class DramController {
   DramController(const DramTiming& timing, const DramPolicy& policy);
 
   /// Whether the queue has a slot for another one.
-  bool room(bool write) const {
-    return write ? writes_.bursts < policy_.write_queue : reads_.bursts < policy_.read_queue;
+  bool room(bool write) const { return room_for(write) != 0; }
+  /// For how many more it has slots.
+  std::size_t room_for(bool write) const {
+    return write ? policy_.write_queue - writes_.bursts : policy_.read_queue - reads_.bursts;
   }
   /// Takes a burst in clock `clock`; needs room, and run_until(clock + 1) before, so that what happens in
   /// that clock is not caused by it.
   void submit(const Burst& burst, Clock clock) {
     Queue& queue = burst.write ? writes_ : reads_;
+    if (!queue.entries.empty() && queue.entries.back().joins(burst)) return join(burst, 1, clock);
     changed_ = clock;
     ++queue.bursts;
-    if (!queue.entries.empty() && queue.entries.back().joins(burst)) {
-      ++queue.entries.back().bursts;  // which can go no sooner than those before
-      planned_ = planned_ && direction() == plan_writing_;
-      return;
-    }
     queue.entries.emplace_back(burst);
     if (queue.misses >= 0 && banks_[burst.location.bank].open_row != std::int64_t{burst.location.row})
       ++queue.misses;
     planned_ = planned_ && direction() == plan_writing_ && (burst.write != plan_writing_ || plan_newest());
+  }
+  /// Takes `number` bursts like `burst`, one a clock from `clock` on; needs that many of may_join(), and else
+  /// what submit() needs.
+  void join(const Burst& burst, std::size_t number, Clock clock) {
+    Queue& queue = burst.write ? writes_ : reads_;
+    changed_ = clock + static_cast<Clock>(number) - 1;
+    queue.bursts += number;
+    queue.entries.back().bursts += number;  // which can go no sooner than those before
+    planned_ = planned_ && direction() == plan_writing_;
+  }
+  /// How many bursts like `burst` may join() the one that entered last, from `clock` on: those that enter
+  /// before anything else is decided. Needs run_until(clock + 1) before.
+  std::size_t may_join(const Burst& burst, Clock clock) const {
+    const Queue& queue = burst.write ? writes_ : reads_;
+    if (queue.entries.empty() || !queue.entries.back().joins(burst)) return 0;
+    std::size_t most = room_for(burst.write);
+    if (writing_ != plan_writing_) most = 1;  // the direction turns in the clock after
+    if (plan_.clock != kNever) most = std::min(most, static_cast<std::size_t>(plan_.clock - clock));
+    if (burst.write && queue.bursts < policy_.high_watermark)
+      most = std::min(most, policy_.high_watermark - queue.bursts);  // with the last of which a batch begins
+    return most;
   }
   /// Takes `number` bursts of one row that enter one a clock from `clock` on, and issues all that they cause,
   /// provided that the last command of it comes before `limit`, no refresh falls between, and the controller
@@ -195,14 +214,15 @@ class DramController {
   void plan_anew();
   void plan_exactly();
   void issue_until(Clock limit, std::vector<Done>& done);
-  void issue(std::vector<Done>& done);
+  void issue(Clock limit, std::vector<Done>& done);
   void issue_row(const Plan& plan);
   void notify(Clock at, DramCommand command, const DramLocation& location) const {
     for (DramListener* listener : listeners_) listener->command(at, command, location.bank, location.row);
   }
   void activate(Clock at, const DramLocation& location);
   void precharge(Clock at, Bank& bank);
-  void column(Clock at, const Burst& burst, std::vector<Done>& done);
+  std::size_t longest_train() const;
+  std::size_t columns(Clock at, const Burst& burst, std::size_t most, Clock limit, std::vector<Done>& done);
   void lose_time(Clock at, Clock& column_free, std::int64_t& lost) const;
   void skip_refreshes(Clock limit);
   void refresh(Clock at);
@@ -236,7 +256,6 @@ class DramController {
   bool planned_ = false;
   std::vector<std::uint8_t> wanted_;  // per bank: how plan_queue() has seen it
   bool oldest_planned_ = false;       // by plan_oldest()
-  std::vector<Clock> columns_;        // of serve_alone()
   DramStatistics statistics_;
   Listeners<DramListener> listeners_;
 };

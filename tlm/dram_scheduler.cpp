@@ -58,7 +58,7 @@ void DramScheduler::enter_until(Clock limit, MemoryService& service) {
     const PortBursts& port = ports_[current_];
     if (port.bursts_left != 0 && next_ < limit && controller_.room(port.write)) {
       run_controller(next_ + 1, service);
-      enter(current_, service);
+      enter(current_, limit, service);
       continue;
     }
     const Clock entry = next_entry();
@@ -67,7 +67,7 @@ void DramScheduler::enter_until(Clock limit, MemoryService& service) {
     run_controller(next_, service);
     if (choose(next_)) {
       run_controller(next_ + 1, service);
-      if (!serve_alone(current_, limit, service)) enter(current_, service);
+      if (!serve_alone(current_, limit, service)) enter(current_, limit, service);
     } else {
       next_ = std::min(next_change(next_), limit);  // what comes after it is not known
     }
@@ -141,12 +141,7 @@ bool DramScheduler::serve_alone(std::size_t id, Clock limit, MemoryService& serv
   const ::tlm::tlm_generic_payload& payload = *queues_->head(id).payload;
   const std::uint64_t bursts = bursts_of(payload);
   const std::uint64_t first = payload.get_address() / burst_bytes_ * burst_bytes_;
-  const DramLocation location = address_.locate(first);
-  if (bursts > 1) {
-    if (memory_.mapping == DramMapping::kRowBankColumnGroup) return false;
-    const DramLocation last = address_.locate(first + (bursts - 1) * burst_bytes_);
-    if (last.bank != location.bank || last.row != location.row) return false;
-  }
+  if (bursts > address_.bursts_in_row(first)) return false;
   for (std::size_t other = 0; other < arrivals_.size(); ++other) {
     if (other != id) limit = std::min(limit, arrivals_[other] + (arrivals_[other] < limit ? 1 : 0));
   }
@@ -154,7 +149,8 @@ bool DramScheduler::serve_alone(std::size_t id, Clock limit, MemoryService& serv
     limit = std::min(limit, std::max(clock_at_or_after(second), next_ + static_cast<Clock>(bursts)) + 1);
   }
   const bool write = payload.is_write();
-  if (!controller_.serve_alone({location, id, write}, bursts, next_, limit, done_)) return false;
+  if (!controller_.serve_alone({address_.locate(first), id, write}, bursts, next_, limit, done_))
+    return false;
   begins_work(next_);
   next_ += static_cast<Clock>(bursts);
   for (const DramController::Done& done : done_) add_beats(done.data_end, id);
@@ -167,13 +163,15 @@ bool DramScheduler::serve_alone(std::size_t id, Clock limit, MemoryService& serv
   return true;
 }
 
-// The next burst of the port's first request enters in clock next_.
-void DramScheduler::enter(std::size_t id, MemoryService& service) {
+// The next burst of the port's first request enters in clock next_, and those after it, one a clock before
+// `limit`, before which nothing else is decided.
+void DramScheduler::enter(std::size_t id, Clock limit, MemoryService& service) {
   PortBursts& port = ports_[id];
   if (port.bursts_left == 0) {
     const ::tlm::tlm_generic_payload& payload = *queues_->head(id).payload;
     port.bursts_left = bursts_of(payload);
     port.next = payload.get_address() / burst_bytes_ * burst_bytes_;
+    port.in_row = 0;
     port.write = payload.is_write();
     if (!port.write) {
       Read& read = port.reads.add();
@@ -184,11 +182,26 @@ void DramScheduler::enter(std::size_t id, MemoryService& service) {
   }
   const bool write = port.write;
   if (controller_.idle()) begins_work(next_);
+  if (port.in_row == 0) {
+    port.location = address_.locate(port.next);
+    port.in_row = address_.bursts_in_row(port.next);
+  }
   const std::uint64_t number = write ? 0 : port.first_read + port.reads.size() - 1;
-  controller_.submit({address_.locate(port.next), number * kPorts + id, write}, next_);
-  port.next += burst_bytes_;
-  ++next_;
-  if (--port.bursts_left > 0) return;
+  const DramController::Burst burst{port.location, number * kPorts + id, write};
+  std::uint64_t entering =
+      std::min<std::uint64_t>({port.bursts_left, port.in_row, static_cast<std::uint64_t>(limit - next_),
+                               controller_.may_join(burst, next_)});
+  if (entering == 0) {
+    entering = 1;
+    controller_.submit(burst, next_);
+  } else {
+    controller_.join(burst, entering, next_);
+  }
+  port.next += entering * burst_bytes_;
+  port.in_row -= entering;
+  next_ += static_cast<Clock>(entering);
+  port.bursts_left -= entering;
+  if (port.bursts_left > 0) return;
   const MemoryRequest request = queues_->pop(id, date_of(next_));
   look_at_head(id);
   if (!write) port.reads[port.reads.size() - 1].request = request;

@@ -57,7 +57,9 @@ class DramScheduler final : public MemoryScheduler {
   };
   struct PortBursts {
     std::uint64_t bursts_left = 0;  // of the head of the queue when it is on its way in
-    std::uint64_t next = 0;         // address of its next burst
+    std::uint64_t next = 0;         // address of its next burst,
+    DramLocation location;          // where that lies,
+    std::uint64_t in_row = 0;       // and how many from there on lie in that row; 0: to be looked up
     bool write = false;             // it is a write
     std::uint64_t first_read = 0;   // number of the oldest in `reads`
     Ring<Read> reads;               // in order
@@ -75,7 +77,7 @@ class DramScheduler final : public MemoryScheduler {
   void enter_until(Clock limit, MemoryService& service);
   bool choose(Clock clock);
   bool can_enter(std::size_t port, Clock clock) const;
-  void enter(std::size_t port, MemoryService& service);
+  void enter(std::size_t port, Clock limit, MemoryService& service);
   std::uint64_t bursts_of(const ::tlm::tlm_generic_payload& payload) const;
   bool serve_alone(std::size_t port, Clock limit, MemoryService& service);
   void begins_work(Clock clock);
