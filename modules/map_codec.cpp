@@ -25,14 +25,25 @@ Components components(const OffsetPair& pair) {
   return {pair.left.dx, pair.left.dy, pair.right.dx, pair.right.dy};
 }
 
-// Bits of the two's complement number `value`; 0 for 0.
-int bits_of(std::int32_t value) {
-  if (value == 0) return 0;
-  const auto magnitude = static_cast<std::uint32_t>(value ^ (value >> 31));  // the sign bit counts extra
-  return magnitude == 0 ? 1 : 33 - __builtin_clz(magnitude);
-}
+// The width that a block needs for its residuals of one component.
+class ResidualWidth {
+ public:
+  void add(std::int32_t value) {
+    ones_ |= value;
+    magnitudes_ |= static_cast<std::uint32_t>(value ^ (value >> 31));
+  }
+  // Of the widest as a two's complement number; 0 if all are 0.
+  int bits() const {
+    if (magnitudes_ == 0) return ones_ == 0 ? 0 : 1;  // -1 is the sign bit alone
+    return 33 - __builtin_clz(magnitudes_);
+  }
 
-// Appends bits at `end`, which has room for them.
+ private:
+  std::int32_t ones_ = 0;
+  std::uint32_t magnitudes_ = 0;
+};
+
+// Appends bits at `end`, which has room for them and for seven bytes more.
 class BitWriter {
  public:
   explicit BitWriter(std::uint8_t* end) : end_(end) {}
@@ -42,20 +53,24 @@ class BitWriter {
     const std::uint64_t mask = (std::uint64_t{1} << bits) - 1;
     pending_ |= (value & mask) << count_;
     count_ += bits;
-    for (; count_ >= 8; count_ -= 8, pending_ >>= 8) {
-      *end_++ = static_cast<std::uint8_t>(pending_);
-    }
+    if (count_ < 32) return;
+    store(4);
+    pending_ >>= 32;
+    count_ -= 32;
   }
 
   /// Fills the last byte with zeros; returns the first byte after it.
   std::uint8_t* finish() {
-    if (count_ > 0) {
-      put(0, 8 - count_);
-    }
+    store((count_ + 7) / 8);
     return end_;
   }
 
  private:
+  void store(int bytes) {
+    for (int i = 0; i < 4; ++i) end_[i] = static_cast<std::uint8_t>(pending_ >> (8 * i));
+    end_ += bytes;
+  }
+
   std::uint8_t* end_;
   std::uint64_t pending_ = 0;
   int count_ = 0;
@@ -73,21 +88,21 @@ class RowEncoder {
 
   void encode(std::vector<std::uint8_t>& bytes) {
     const std::size_t size = bytes.size();
-    bytes.resize(size + worst_);
+    bytes.resize(size + worst_ + kRoom);
     BitWriter writer(bytes.data() + size);
     std::array<Components, kBlockPixels> residuals{};
     for (int begin = 0; begin < width_; begin += kBlockPixels) {
       const int count = std::min(kBlockPixels, width_ - begin);
-      std::array<int, kComponents> widths{};
+      std::array<ResidualWidth, kComponents> needed{};
       for (int i = 0; i < count; ++i) {
         Components& r = residuals[i];
         r = residual(begin + i);
-        for (std::size_t c = 0; c < r.size(); ++c) {
-          widths[c] = std::max(widths[c], bits_of(r[c]));
-        }
+        for (std::size_t c = 0; c < r.size(); ++c) needed[c].add(r[c]);
       }
-      for (const int width : widths) {
-        writer.put(width, kWidthFieldBits);
+      std::array<int, kComponents> widths{};
+      for (std::size_t c = 0; c < widths.size(); ++c) {
+        widths[c] = needed[c].bits();
+        writer.put(widths[c], kWidthFieldBits);
       }
       for (int i = 0; i < count; ++i) {
         for (std::size_t c = 0; c < widths.size(); ++c) {
@@ -99,6 +114,8 @@ class RowEncoder {
   }
 
  private:
+  static constexpr std::size_t kRoom = 8;  // bytes, for BitWriter
+
   // value - (left + up - upleft), wrapped: missing neighbours count as zero, which gives the predictors of
   // the edges. To be asked for every x in turn.
   Components residual(int x) {
@@ -138,7 +155,11 @@ MapEncoder::MapEncoder(int width, int height, const OffsetRange& range)
 
 void MapEncoder::push(const OffsetPair* row) {
   const int limit = map_.range.limit();
+  std::int32_t largest = 0;
   for (int x = 0; x < map_.width; ++x) {
+    for (const std::int32_t value : components(row[x])) largest = std::max(largest, std::abs(value));
+  }
+  for (int x = 0; largest > limit && x < map_.width; ++x) {
     for (const std::int32_t value : components(row[x])) {
       if (std::abs(value) > limit) {
         throw std::invalid_argument(fmt::format("offset {} is beyond the map's limit {}", value, limit));

@@ -77,6 +77,45 @@ const OffsetRange& validated(const OffsetRange& range) {
   return range;
 }
 
+[[noreturn]] void fail(const char* what, int row, int x, std::size_t bit) {
+  throw UserError(
+      fmt::format("rectification map: row {}, pixel {} (byte {} of the row): {}", row, x, bit / 8, what));
+}
+
+// The block of pixels from `begin` to `end` of a row of `size` bytes, whose code begins at `bit`.
+struct Block {
+  std::array<int, kComponents> widths{};
+  int pair_bits = 0;  // of a pixel's code
+
+  Block(std::uint64_t header, const OffsetRange& range, int row, int begin, std::size_t bit) {
+    for (std::size_t i = 0; i < widths.size(); ++i) {
+      widths[i] = (header >> (i * kWidthFieldBits)) & ((1U << kWidthFieldBits) - 1U);
+      if (widths[i] > range.offset_bits()) fail("a residual is wider than an offset", row, begin, bit);
+      pair_bits += widths[i];
+    }
+  }
+};
+
+// Calls per_block(block, begin, end, bit) for the blocks of a row, `bit` being that of the first pixel's
+// code. The header at a bit is header(bit), of which the lowest bits are looked at. Returns the bit after the
+// last block.
+template <class Header, class PerBlock>
+std::size_t for_each_block(std::size_t size, int width, const OffsetRange& range, int row,
+                           const Header& header, const PerBlock& per_block) {
+  std::size_t bit = 0;
+  for (int begin = 0; begin < width; begin += kBlockPixels) {
+    if (bit + kHeaderBits > size * 8) fail("the row ends before the block's header", row, begin, bit);
+    const Block block(header(bit), range, row, begin, bit);
+    bit += kHeaderBits;
+    const int end = std::min(begin + kBlockPixels, width);
+    const std::size_t after = bit + static_cast<std::size_t>(end - begin) * block.pair_bits;
+    if (after > size * 8) fail("the row ends within the block", row, begin, bit);
+    per_block(block, begin, end, bit);
+    bit = after;
+  }
+  return bit;
+}
+
 std::size_t blocks(int width) { return (width + kBlockPixels - 1) / kBlockPixels; }
 
 }  // namespace
@@ -98,18 +137,27 @@ MapDecoder::MapDecoder(const OffsetRange& range, int width, int height)
 
 std::int64_t MapDecoder::storage_bits() const { return std::int64_t{width_} * kComponents * offset_bits_; }
 
-void MapDecoder::fail(const char* what, int x, std::size_t bit) const {
-  throw UserError(
-      fmt::format("rectification map: row {}, pixel {} (byte {} of the row): {}", y_, x, bit / 8, what));
+void map_code_ends(const std::uint8_t* bytes, std::size_t size, const OffsetRange& range, int row,
+                   std::vector<std::uint32_t>& end_bit) {
+  // A header lies in up to three bytes, and no byte after them is there for sure.
+  const auto header = [&](std::size_t bit) {
+    std::uint32_t word = 0;
+    for (std::size_t byte = bit / 8, i = 0; i < 3 && byte + i < size; ++i) word |= bytes[byte + i] << (8 * i);
+    return std::uint64_t{word >> (bit % 8)};
+  };
+  for_each_block(size, static_cast<int>(end_bit.size()), range, row, header,
+                 [&](const Block& block, int begin, int end, std::size_t bit) {
+                   for (int x = begin; x < end; ++x)
+                     end_bit[x] = static_cast<std::uint32_t>(bit += block.pair_bits);
+                 });
 }
 
-std::size_t MapDecoder::push(const std::uint8_t* bytes, std::size_t size, OffsetPair* out,
-                             std::uint32_t* end_bit) {
+std::size_t MapDecoder::push(const std::uint8_t* bytes, std::size_t size, OffsetPair* out) {
   const std::size_t usable = std::min(size, bytes_.size() - kPadding);
   std::copy_n(bytes, usable, bytes_.begin());
   std::size_t used = 0;
   try {
-    used = decode(usable, out, end_bit);
+    used = decode(usable, out);
     check_range(out);
   } catch (const UserError&) {
     y_ = 0;
@@ -125,41 +173,21 @@ std::size_t MapDecoder::push(const std::uint8_t* bytes, std::size_t size, Offset
   return used;
 }
 
-std::size_t MapDecoder::decode(std::size_t size, OffsetPair* out, std::uint32_t* end_bit) const {
+std::size_t MapDecoder::decode(std::size_t size, OffsetPair* out) const {
   ImageState left(offset_bits_);
   ImageState right(offset_bits_);
-  std::size_t bit = 0;
-  for (int begin = 0; begin < width_; begin += kBlockPixels) {
-    if (bit + kHeaderBits > size * 8) {
-      fail("the row ends before the block's header", begin, bit);
-    }
-    const std::uint64_t header = fetch(bytes_.data(), bit);
-    std::array<int, kComponents> widths{};
-    int pair_bits = 0;
-    for (std::size_t i = 0; i < widths.size(); ++i) {
-      widths[i] = (header >> (i * kWidthFieldBits)) & ((1U << kWidthFieldBits) - 1U);
-      if (widths[i] > offset_bits_) {
-        fail("a residual is wider than an offset", begin, bit);
-      }
-      pair_bits += widths[i];
-    }
-    bit += kHeaderBits;
-    const int end = std::min(begin + kBlockPixels, width_);
-    if (bit + (end - begin) * pair_bits > size * 8) {
-      fail("the row ends within the block", begin, bit);
-    }
-    for (int x = begin; x < end; ++x) {
-      const OffsetPair& up = previous_[x];
-      out[x].left = take(bytes_.data(), bit, {widths[0], widths[1]}, up.left, left);
-      out[x].right = take(bytes_.data(), bit, {widths[2], widths[3]}, up.right, right);
-      if (end_bit != nullptr) {
-        end_bit[x] = static_cast<std::uint32_t>(bit);
-      }
-    }
-  }
+  const std::size_t bit = for_each_block(
+      size, width_, range_, y_, [this](std::size_t at) { return fetch(bytes_.data(), at); },
+      [&](const Block& block, int begin, int end, std::size_t at) {
+        for (int x = begin; x < end; ++x) {
+          const OffsetPair& up = previous_[x];
+          out[x].left = take(bytes_.data(), at, {block.widths[0], block.widths[1]}, up.left, left);
+          out[x].right = take(bytes_.data(), at, {block.widths[2], block.widths[3]}, up.right, right);
+        }
+      });
   const std::size_t padding = (8 - bit % 8) % 8;
   if ((fetch(bytes_.data(), bit) & ((1U << padding) - 1U)) != 0) {
-    fail("the bits that fill the last byte are not zero", width_ - 1, bit);
+    fail("the bits that fill the last byte are not zero", y_, width_ - 1, bit);
   }
   return (bit + padding) / 8;
 }

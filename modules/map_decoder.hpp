@@ -21,6 +21,12 @@ inline constexpr int kHeaderBits = kComponents * kWidthFieldBits;
 std::size_t least_row_bytes(int width);
 std::size_t worst_row_bytes(int width, const OffsetRange& range);
 
+/// Where the codes of a row end: `end_bit` receives for each pixel the position, counted from the start of
+/// the row, of the first bit after its code. Throws UserError where the bytes are no row of such a map, as
+/// MapDecoder::push() does, but for what it takes the offsets to see. `row` is named in the message.
+void map_code_ends(const std::uint8_t* bytes, std::size_t size, const OffsetRange& range, int row,
+                   std::vector<std::uint32_t>& end_bit);
+
 /// Map decoder: the compressed bytes of one row -> offset pairs of that row.
 ///
 /// A row starts at a byte. Bits are taken from the least significant end of each byte upward. The row is cut
@@ -37,11 +43,9 @@ class MapDecoder {
   MapDecoder(const OffsetRange& range, int width, int height);
 
   /// Decodes row 0, 1, ... height-1, then the next frame's row 0. `bytes` starts at the row and may hold more
-  /// than the row; the return value is the number of bytes the row took. `end_bit`, unless null, receives for
-  /// each pixel the position, counted from the start of the row, of the first bit after its code. Throws
-  /// UserError on bytes that are no row of a map of this size; the decoder then starts again with row 0.
-  std::size_t push(const std::uint8_t* bytes, std::size_t size, OffsetPair* out,
-                   std::uint32_t* end_bit = nullptr);
+  /// than the row; the return value is the number of bytes the row took. Throws UserError on bytes that are
+  /// no row of a map of this size; the decoder then starts again with row 0.
+  std::size_t push(const std::uint8_t* bytes, std::size_t size, OffsetPair* out);
 
   int look_ahead_rows() const { return 0; }
   int look_ahead_pixels() const { return 0; }
@@ -49,8 +53,7 @@ class MapDecoder {
   std::int64_t storage_bits() const;
 
  private:
-  std::size_t decode(std::size_t size, OffsetPair* out, std::uint32_t* end_bit) const;
-  [[noreturn]] void fail(const char* what, int x, std::size_t bit) const;
+  std::size_t decode(std::size_t size, OffsetPair* out) const;
   void check_range(const OffsetPair* row) const;
 
   OffsetRange range_;
@@ -59,8 +62,8 @@ class MapDecoder {
   int height_;
   int y_ = 0;
   std::vector<OffsetPair> previous_;  // the row above; zeros above row 0
-  std::vector<std::uint8_t>
-      bytes_;  // the row's bytes, padded so that a field can be fetched as one 64-bit word
+  // The row's bytes, padded so that a field can be fetched as one 64-bit word.
+  std::vector<std::uint8_t> bytes_;
 };
 
 }  // namespace parallax

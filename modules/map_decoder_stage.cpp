@@ -5,16 +5,14 @@ namespace parallax {
 namespace {
 
 Schedule map_schedule(const EncodedMap& map, Bytes word, int pairs, const StageTiming& timing) {
-  MapDecoder decoder(map.range, map.width, map.height);
-  std::vector<OffsetPair> row(map.width);
-  std::vector<std::uint32_t> end_bit(row.size());
+  std::vector<std::uint32_t> end_bit(map.width);
   const auto word_bits = static_cast<std::uint64_t>(word.count()) * 8;
   const Phase firing = fires().every(timing.interval);
   Firings firings;
   std::uint64_t read_bits = 0;  // of the frame's stream, in the words read so far
   std::uint64_t row_start = 0;  // byte of the frame's stream
   for (int y = 0; y < map.height; ++y) {
-    decoder.push(map.bytes.data() + row_start, map.bytes.size() - row_start, row.data(), end_bit.data());
+    map_code_ends(map.bytes.data() + row_start, map.row_bytes[y], map.range, y, end_bit);
     for (std::size_t last = pairs - 1; last < end_bit.size(); last += pairs) {
       const std::uint64_t needed = row_start * 8 + end_bit[last];
       while (read_bits + word_bits < needed) {

@@ -2,6 +2,15 @@
 #include "tlm/schedule.hpp"
 
 namespace parallax {
+namespace {
+
+// Adds `count` to the entry of each port of the mask.
+template <class Counts>
+void add(PortMask ports, std::uint64_t count, Counts& counts) {
+  for (unsigned mask = ports; mask != 0; mask &= mask - 1) counts[__builtin_ctz(mask)] += count;
+}
+
+}  // namespace
 
 void Firings::lengthen(std::uint32_t cycles) {
   Phase last = phases_.back();
@@ -22,38 +31,19 @@ Schedule& Schedule::repeat(std::uint64_t times, const std::vector<Phase>& phases
     phases_.resize(first);
     return *this;
   }
+  for (std::uint32_t i = first; i < phases_.size(); ++i) {
+    const Phase& phase = phases_[i];
+    const std::uint64_t firings = times * phase.count;
+    totals_.cycles += firings * phase.interval;
+    add(phase.consume, firings, totals_.consumed);
+    add(phase.produce, firings, totals_.produced);
+  }
   if (times == 1 && !segments_.empty() && segments_.back().repeat == 1) {
     segments_.back().phase_count += count;
     return *this;
   }
   segments_.push_back({times, first, count});
   return *this;
-}
-
-template <class Weight>
-std::uint64_t Schedule::sum(Weight weight) const {
-  std::uint64_t total = 0;
-  for (const Segment& segment : segments_) {
-    std::uint64_t once = 0;
-    for (std::uint32_t i = 0; i < segment.phase_count; ++i) {
-      const Phase& phase = phases_[segment.first_phase + i];
-      once += weight(phase) * phase.count;
-    }
-    total += once * segment.repeat;
-  }
-  return total;
-}
-
-std::uint64_t Schedule::cycles() const {
-  return sum([](const Phase& p) { return std::uint64_t{p.interval}; });
-}
-
-std::uint64_t Schedule::produced(unsigned port) const {
-  return sum([port](const Phase& p) { return std::uint64_t{(p.produce >> port) & 1u}; });
-}
-
-std::uint64_t Schedule::consumed(unsigned port) const {
-  return sum([port](const Phase& p) { return std::uint64_t{(p.consume >> port) & 1u}; });
 }
 
 }  // namespace parallax

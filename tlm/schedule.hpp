@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -80,18 +81,23 @@ class Schedule {
   bool empty() const { return segments_.empty(); }
 
   /// Busy cycles of one frame without any wait: a lower bound for the frame's time in this stage.
-  std::uint64_t cycles() const;
+  std::uint64_t cycles() const { return totals_.cycles; }
   /// Tokens through output port `port` in one frame.
-  std::uint64_t produced(unsigned port) const;
+  std::uint64_t produced(unsigned port) const { return port < kPorts ? totals_.produced[port] : 0; }
   /// Tokens through input port `port` in one frame.
-  std::uint64_t consumed(unsigned port) const;
+  std::uint64_t consumed(unsigned port) const { return port < kPorts ? totals_.consumed[port] : 0; }
 
  private:
-  template <class Weight>
-  std::uint64_t sum(Weight weight) const;
+  static constexpr unsigned kPorts = 8;  // that a mask has
+  struct Totals {  // of one frame; there may be many phases, and they are asked for often
+    std::uint64_t cycles = 0;
+    std::array<std::uint64_t, kPorts> consumed{};
+    std::array<std::uint64_t, kPorts> produced{};
+  };
 
   std::vector<Segment> segments_;
   std::vector<Phase> phases_;
+  Totals totals_;
 };
 
 /// How a stage fires: by one schedule, or in two sides, each by a schedule of its own (Stage), so that a

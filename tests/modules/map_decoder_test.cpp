@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
+#include <algorithm>
 
 #include <cstdint>
 #include <string>
@@ -29,9 +30,10 @@ void expect_as_reference(const RectificationMap& map, int frames) {
     for (std::size_t y = 0; y < static_cast<std::size_t>(map.height); ++y) {
       std::vector<OffsetPair> row(width);
       std::vector<std::uint32_t> end_bits(width);
-      const std::size_t used = decoder.push(encoded.bytes.data() + begin, encoded.bytes.size() - begin,
-                                            row.data(), end_bits.data());
+      const std::uint8_t* bytes = encoded.bytes.data() + begin;
+      const std::size_t used = decoder.push(bytes, encoded.bytes.size() - begin, row.data());
       ASSERT_EQ(used, encoded.row_bytes[y]);
+      map_code_ends(bytes, used, map.range, static_cast<int>(y), end_bits);
       ASSERT_EQ(end_bits, expected.end_bits[y]);
       for (std::size_t x = 0; x < width; ++x) {
         ASSERT_EQ(row[x].left.dx, expected.components[0][y * width + x]);
@@ -86,7 +88,25 @@ class MalformedRow : public ::testing::Test {
     }
     return line;
   }
+  // The same row, of which only the codes' ends are asked for.
+  static std::string message_of_ends(const std::vector<std::uint8_t>& bytes) {
+    std::vector<std::uint32_t> end_bits(18);
+    try {
+      map_code_ends(bytes.data(), bytes.size(), {79, 5}, 1, end_bits);
+    } catch (const UserError& error) {
+      return error.what();
+    }
+    return "";
+  }
 };
+
+TEST_F(MalformedRow, IsRefusedWhereTheCodesEndToo) {
+  for (const std::vector<std::uint8_t>& bytes :
+       {std::vector<std::uint8_t>{0, 0, 0}, {}, {0, 0, 0x08, 0, 0xFF}, {0xD0, 0, 0, 0}}) {
+    EXPECT_EQ(message_of_ends(bytes), message(bytes));
+    EXPECT_NE(message_of_ends(bytes), "");
+  }
+}
 
 TEST_F(MalformedRow, EndsBeforeAHeader) {
   EXPECT_EQ(message({0, 0, 0}),
@@ -118,6 +138,16 @@ TEST_F(MalformedRow, OffsetBeyondTheWindow) {
 }
 
 TEST(MapDecoder, RefusesABadRange) { EXPECT_THROW(MapDecoder({78, 5}, 4, 4), UserError); }
+
+RC_GTEST_PROP(MapDecoder, CodesOfArbitraryBytesEndWithinThem, (const std::vector<std::uint8_t>& bytes)) {
+  std::vector<std::uint32_t> end_bits(40);
+  try {
+    map_code_ends(bytes.data(), bytes.size(), {}, 0, end_bits);
+    RC_ASSERT(end_bits.back() <= bytes.size() * 8);
+    RC_ASSERT(std::is_sorted(end_bits.begin(), end_bits.end()));
+  } catch (const UserError&) {
+  }
+}
 
 RC_GTEST_PROP(MapDecoder, SurvivesArbitraryBytes, (const std::vector<std::uint8_t>& bytes)) {
   MapDecoder decoder({}, 40, 3);
