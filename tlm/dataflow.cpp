@@ -101,20 +101,38 @@ void Dataflow::drain() {
 
 bool Dataflow::attempt_leaps() {
   bool found = false;
-  for (const auto& leap : leaps_) found |= !leap->holding() && leap->attempt();
+  bool known = true;
+  for (const auto& leap : leaps_) {
+    if (leap->holding()) continue;
+    const Leap::Found result = leap->attempt();
+    found |= result == Leap::Found::kPeriod;
+    known &= result != Leap::Found::kUnknown;
+  }
   firings_ = 0;
-  failures_ = found ? 0 : std::min(failures_ + 1, kMostPatience);
+  // What was not known is no failure: the next look may find it known.
+  if (found) failures_ = 0;
+  if (!found && known) failures_ = std::min(failures_ + 1, kMostPatience);
   return found;
+}
+
+// Whether it is time to look for periodic motion, and there is something to look at.
+bool Dataflow::may_look(bool soon) const {
+  return leap_interval_ != 0 && firings_ >= leap_interval_ << (soon ? 0 : failures_) &&
+         std::any_of(leaps_.begin(), leaps_.end(),
+                     [](const auto& leap) { return !leap->holding() && leap->can_move(); });
 }
 
 void Dataflow::run() {
   notified_ = true;  // so wakes from within need no event
-  // Everybody has come to rest before, which is where periodic motion shows best.
-  bool eager = leap_interval_ != 0 && firings_ >= leap_interval_ && attempt_leaps();
+  // Everybody has come to rest before, which is where periodic motion shows best: as soon as the first can go on.
+  bool soon = true;
+  bool eager = false;
   for (;;) {
-    while (step()) {
-      if (leap_interval_ != 0 && firings_ >= leap_interval_ << failures_) eager |= attempt_leaps();
-    }
+    do {
+      if (!may_look(soon)) continue;
+      soon = false;
+      eager |= attempt_leaps();
+    } while (step());
     bool moved = false;
     for (const auto& leap : leaps_) {
       if (leap->holding() && leap->go_on(eager)) moved = eager = true;

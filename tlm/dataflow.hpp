@@ -82,6 +82,7 @@ class Dataflow final : public sc_core::sc_module {
   bool step();
   void drain();  // actions and actors until none can move
   bool attempt_leaps();
+  bool may_look(bool soon) const;
   void look_anew() { firings_ = failures_ = 0; }
   void hold(Actor& actor, Leap* leap, bool active);
   void release(Actor& actor);

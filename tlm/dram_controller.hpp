@@ -136,6 +136,8 @@ class DramController {
   }
   /// Clock of the next command if nothing else arrives; kNever when it waits for nothing but refreshes.
   Clock next_command();
+  /// Clocks from one read or write to the next, at least.
+  Clock least_pace() const { return std::max(timing_.ccd, command_share_ / 100); }
   bool idle() const { return reads_.bursts + writes_.bursts == 0; }
 
   const DramStatistics& statistics() const { return statistics_; }

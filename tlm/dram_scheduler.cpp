@@ -12,6 +12,8 @@ namespace {
 
 // A burst's tag in the controller: the port, and the number of the read at it.
 constexpr std::uint64_t kPorts = 256;
+// Bursts: more than wait for anything.
+constexpr std::uint64_t kMany = std::uint64_t{1} << 32;
 
 }  // namespace
 
@@ -72,14 +74,6 @@ void DramScheduler::enter_until(Clock limit, MemoryService& service) {
       next_ = std::min(next_change(next_), limit);  // what comes after it is not known
     }
   }
-}
-
-// Keeps what is known of the first request of a port's queue up to date.
-void DramScheduler::look_at_head(std::size_t id) {
-  const Picoseconds date = queues_->arrivals()[id];
-  if (date == arrival_dates_[id]) return;
-  arrival_dates_[id] = date;
-  arrivals_[id] = date == MemoryQueues::kNever ? DramController::kNever : clock_at_or_after(date);
 }
 
 void DramScheduler::look_at_heads() {
@@ -231,7 +225,23 @@ void DramScheduler::take_done(MemoryService& service) {
   done_.clear();
 }
 
-// In which some burst that waits could enter at the earliest; needs one.
+// In which the last burst of the port's first request, which there is, could enter at the earliest.
+DramScheduler::Clock DramScheduler::last_entry(std::size_t id) {
+  look_at_head(id);
+  const PortBursts& port = ports_[id];
+  const ::tlm::tlm_generic_payload& payload = *queues_->head(id).payload;
+  const std::uint64_t bursts = port.bursts_left != 0 ? port.bursts_left : bursts_of(payload);
+  const Clock first = std::max({arrivals_[id], next_, decided_});
+  const Clock last = first + static_cast<Clock>(bursts) - 1;
+  const std::size_t room = controller_.room_for(payload.is_write());
+  if (bursts <= room) return last;
+  // Each of the others takes the place of one that goes before it, which may be one of its own.
+  const Clock command =
+      room == 0 ? controller_.next_command() : std::min(controller_.next_command(), first + 1);
+  return std::max(last, command + static_cast<Clock>(bursts - room - 1) * controller_.least_pace() + 1);
+}
+
+// In which some burst that waits could enter at the earliest, if there is room; needs one.
 DramScheduler::Clock DramScheduler::entry_bound() {
   look_at_heads();
   const Clock first = std::max(next_, decided_);
@@ -251,14 +261,26 @@ Picoseconds DramScheduler::next_answer() {
   const DramTiming& timing = memory_.timing;
   Clock next = DramController::kNever;
   if (reads_ > 0 && !controller_.idle()) {
-    next = std::max(controller_.next_command(), decided_) + timing.cl + timing.burst_clocks();
+    // A port's oldest read is answered when as many bursts have gone as it still waits for.
+    std::uint64_t bursts = kMany;
+    for (const PortBursts& port : ports_) {
+      if (!port.reads.empty()) bursts = std::min(bursts, port.reads.front().bursts_left);
+    }
+    next = std::max(controller_.next_command(), decided_) +
+           static_cast<Clock>(bursts - 1) * controller_.least_pace() + timing.cl + timing.burst_clocks();
   }
   // A read's first command comes in the clock after its entry; a write is answered after its last burst's.
   if (!queues_->empty()) next = std::min(next, entry_bound() + 1);
   return next == DramController::kNever ? MemoryQueues::kNever : date_of(next + memory_.latency);
 }
 
-Picoseconds DramScheduler::next_slot() { return date_of(entry_bound() + 1); }
+Picoseconds DramScheduler::next_slot() {
+  Clock next = DramController::kNever;
+  for (std::size_t id = 0; id < ports_.size(); ++id) {
+    if (queues_->has_refused(id)) next = std::min(next, last_entry(id));
+  }
+  return date_of(next + 1);
+}
 
 void DramScheduler::add_beats(Clock end, std::size_t id) {
   const Clock begin = end - burst_clocks_;

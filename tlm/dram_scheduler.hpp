@@ -81,7 +81,13 @@ class DramScheduler final : public MemoryScheduler {
   std::uint64_t bursts_of(const ::tlm::tlm_generic_payload& payload) const;
   bool serve_alone(std::size_t port, Clock limit, MemoryService& service);
   void begins_work(Clock clock);
-  void look_at_head(std::size_t port);
+  // Keeps what is known of the first request of a port's queue up to date.
+  void look_at_head(std::size_t port) {
+    const Picoseconds date = queues_->arrivals()[port];
+    if (date == arrival_dates_[port]) return;
+    arrival_dates_[port] = date;
+    arrivals_[port] = date == MemoryQueues::kNever ? DramController::kNever : clock_at_or_after(date);
+  }
   void look_at_heads();
   Clock next_change(Clock clock);
   void run_controller(Clock limit, MemoryService& service) {
@@ -93,6 +99,7 @@ class DramScheduler final : public MemoryScheduler {
   void keep_last_beats();
   void count_beats(Clock clock);
   Clock next_entry() const;
+  Clock last_entry(std::size_t port);
   Clock entry_bound();
 
   const DramMemory memory_;

@@ -41,9 +41,15 @@ class Leap {
   /// Takes in the stages of this clock; when all are bound.
   void build(const std::vector<Stage*>& stages);
 
-  /// Looks for periodic motion. When there is some, the stages are held: from here on they move by go_on()
-  /// only.
-  bool attempt();
+  enum class Found {
+    kPeriod,   ///< there is periodic motion: the stages are held; from here on they move by go_on() only
+    kNothing,  ///< there is none now
+    kUnknown,  ///< not all stages could go through a period: what they wait for is not known yet
+  };
+  /// Looks for periodic motion.
+  Found attempt();
+  /// Whether any stage could fire now; without, there is nothing to look at.
+  bool can_move() const;
   bool holding() const { return holding_; }
   /// Moves the held stages as far as is known, when `eager` or when the kernel's time has come to what they
   /// did not compute yet; lets go of them where periodic motion ends. Whether anything moved.
@@ -126,7 +132,7 @@ class Leap {
   bool classify();
   bool find_unit(Member& member, PortMask& mixed_in, PortMask& mixed_out);
   bool find_period();
-  bool observe();
+  Found observe();
   void snapshot();
   bool repeats(Member& member) const;
   bool repeats(Link& link) const;

@@ -21,7 +21,7 @@ void Leap::set_limits(bool limited, bool with_period) {
 }
 
 // Lets every stage go through one period, and compares what came of it with what was before.
-bool Leap::observe() {
+Leap::Found Leap::observe() {
   set_limits(true, false);
   dataflow_.drain();  // what can be written of what has been fired
   snapshot();
@@ -37,6 +37,7 @@ bool Leap::observe() {
   set_limits(false, false);
 
   bool same = true;
+  bool whole = true;
   for (Member& member : members_) {
     Stage& stage = *member.stage;
     if (!member.active) {
@@ -44,6 +45,7 @@ bool Leap::observe() {
       if (same) stage.advance();  // says which streams it waits for
     } else if (member.takes_part) {
       member.base = stage.statistics_.firings;
+      whole = whole && member.base == member.before.firings + member.firings;
       member.last_event_write = stage.last_write_;
       member.claimed_pending = 0;
       member.position_firing = 0;
@@ -80,7 +82,7 @@ bool Leap::observe() {
       dataflow_.wake(*member.stage);
     }
   }
-  return same;
+  return same ? Found::kPeriod : whole ? Found::kNothing : Found::kUnknown;
 }
 
 void Leap::snapshot() {

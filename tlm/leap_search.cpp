@@ -51,7 +51,12 @@ void Leap::build(const std::vector<Stage*>& stages) {
   }
 }
 
-bool Leap::attempt() {
+bool Leap::can_move() const {
+  return std::any_of(members_.begin(), members_.end(),
+                     [](const Member& member) { return member.stage->can_fire(); });
+}
+
+Leap::Found Leap::attempt() {
   // In the order in which the stages happen to be gone through, one that moves all the time may have stood
   // still since the last look, and one that has come to its end may have moved. Every other look is a wide
   // one.
@@ -63,7 +68,7 @@ bool Leap::attempt() {
     member.seen_firings = stage.statistics_.firings;
     member.active = stage.statistics_.firings != 0 && (member.looks_still < recent || stage.can_fire());
   }
-  return classify() && find_period() && observe();
+  return classify() && find_period() ? observe() : Found::kNothing;
 }
 
 // Finds out who takes part: the stages that have moved lately, with the unit in which each repeats itself,
