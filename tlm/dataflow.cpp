@@ -115,16 +115,18 @@ bool Dataflow::attempt_leaps() {
   return found;
 }
 
-// Whether it is time to look for periodic motion, and there is something to look at.
+// Whether it is time to look for periodic motion, `soon` with half the patience, and there is something to
+// look at.
 bool Dataflow::may_look(bool soon) const {
-  return leap_interval_ != 0 && firings_ >= leap_interval_ << (soon ? 0 : failures_) &&
+  return leap_interval_ != 0 && firings_ >= leap_interval_ << (soon ? failures_ / 2 : failures_) &&
          std::any_of(leaps_.begin(), leaps_.end(),
                      [](const auto& leap) { return !leap->holding() && leap->can_move(); });
 }
 
 void Dataflow::run() {
   notified_ = true;  // so wakes from within need no event
-  // Everybody has come to rest before, which is where periodic motion shows best: as soon as the first can go on.
+  // Everybody has come to rest before, which is where periodic motion shows best: as soon as the first can go
+  // on.
   bool soon = true;
   bool eager = false;
   for (;;) {

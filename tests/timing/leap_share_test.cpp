@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,9 @@ struct Case {
   int width, height;
   std::vector<std::string> assignments;
 };
+void PrintTo(const Case& c, std::ostream* out) {
+  *out << fmt::format("{}x{} {}", c.width, c.height, fmt::join(c.assignments, " "));
+}
 
 class LeapShare : public ::testing::TestWithParam<Case> {};
 
