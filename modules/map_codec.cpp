@@ -166,10 +166,20 @@ void MapEncoder::push(const OffsetPair* row) {
       }
     }
   }
+  if (map_.row_bytes.empty()) first_.assign(row, row + map_.width);
   const std::size_t begin = map_.bytes.size();
   RowEncoder(map_.width, map_.range, previous_.data(), row).encode(map_.bytes);
   map_.row_bytes.push_back(static_cast<std::uint32_t>(map_.bytes.size() - begin));
   std::copy_n(row, map_.width, previous_.begin());
+}
+
+// A row's code depends on the row above: below a row of ours, that of the first one is another.
+void MapEncoder::append(const MapEncoder& below) {
+  push(below.first_.data());
+  const EncodedMap& rows = below.map_;
+  map_.bytes.insert(map_.bytes.end(), rows.bytes.begin() + rows.row_bytes.front(), rows.bytes.end());
+  map_.row_bytes.insert(map_.row_bytes.end(), rows.row_bytes.begin() + 1, rows.row_bytes.end());
+  previous_ = below.previous_;
 }
 
 EncodedMap MapEncoder::take() {

@@ -22,18 +22,21 @@ struct EncodedMap {
   double bytes_per_pixel() const;
 };
 
-/// Compresses a map row by row, without loss. Holds the compressed rows and one more.
+/// Compresses a map row by row, without loss. Holds the compressed rows and two more.
 class MapEncoder {
  public:
   MapEncoder(int width, int height, const OffsetRange& range);
 
   /// The next of `height` rows. Throws std::invalid_argument for an offset beyond the range.
   void push(const OffsetPair* row);
+  /// The rows of another encoder of this width and range, which has some, as the next rows.
+  void append(const MapEncoder& below);
   /// The map, after its last row.
   EncodedMap take();
 
  private:
   EncodedMap map_;
+  std::vector<OffsetPair> first_;     // row 0
   std::vector<OffsetPair> previous_;  // the row above; zeros above row 0
 };
 

@@ -195,14 +195,12 @@ std::size_t MapDecoder::decode(std::size_t size, OffsetPair* out) const {
 void MapDecoder::check_range(const OffsetPair* row) const {
   const int limit = range_.limit();
   const auto beyond = [limit](const Offset& o) { return std::abs(o.dx) > limit || std::abs(o.dy) > limit; };
-  bool any = false;
+  int largest = 0;
   for (int x = 0; x < width_; ++x) {
-    any |= beyond(row[x].left);
-    any |= beyond(row[x].right);
+    for (const Offset& o : {row[x].left, row[x].right})
+      largest = std::max({largest, std::abs(o.dx), std::abs(o.dy)});
   }
-  if (!any) {
-    return;
-  }
+  if (largest <= limit) return;
   for (int x = 0; x < width_; ++x) {
     if (beyond(row[x].left) || beyond(row[x].right)) {
       throw UserError(

@@ -89,11 +89,15 @@ TilePlan plan_tiles(const TileConfig& config, const DisparityRange& range, int w
 }
 
 EncodedMap cut_map(const EncodedMap& map, const TilePlan& plan) {
-  MapEncoder encoder(plan.width, map.height * static_cast<int>(plan.tiles.size()), map.range);
-  for (const Tile& tile : plan.tiles) {
-    decode_rows(map, [&](const OffsetPair* row) { encoder.push(row + tile.begin); });
-  }
-  return encoder.take();
+  std::vector<MapEncoder> tiles;
+  const auto number = static_cast<int>(plan.tiles.size());
+  for (int t = 0; t < number; ++t)
+    tiles.emplace_back(plan.width, t == 0 ? map.height * number : map.height, map.range);
+  decode_rows(map, [&](const OffsetPair* row) {
+    for (std::size_t t = 0; t < tiles.size(); ++t) tiles[t].push(row + plan.tiles[t].begin);
+  });
+  for (std::size_t t = 1; t < tiles.size(); ++t) tiles[0].append(tiles[t]);
+  return tiles[0].take();
 }
 
 }  // namespace parallax

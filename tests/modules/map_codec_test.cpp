@@ -70,6 +70,22 @@ RC_GTEST_PROP(MapCodec, IsLosslessOnNoise, ()) {
       test::noise_map(width, height, {window, fraction_bits}, *rc::gen::arbitrary<std::uint32_t>()));
 }
 
+RC_GTEST_PROP(MapCodec, AppendedRowsAreCodedAsIfPushed, ()) {
+  const OffsetRange range{79, 5};
+  const int width = *rc::gen::inRange(1, 70);
+  const int height = *rc::gen::inRange(1, 8);
+  const int above = *rc::gen::inRange(1, height + 1);
+  const RectificationMap map = test::noise_map(width, height, range, *rc::gen::arbitrary<std::uint32_t>());
+  MapEncoder upper(width, height, range);
+  MapEncoder lower(width, std::max(1, height - above), range);
+  for (int y = 0; y < height; ++y) (y < above ? upper : lower).push(map.row(y));
+  if (above < height) upper.append(lower);
+  const EncodedMap joined = upper.take();
+  const EncodedMap pushed = encode(map);
+  RC_ASSERT(joined.bytes == pushed.bytes);
+  RC_ASSERT(joined.row_bytes == pushed.row_bytes);
+}
+
 TEST(MapCodec, IsLosslessOnJumpsBetweenTheEndsOfTheRange) {
   for (const int fraction_bits : {0, 5, 8}) {
     for (const auto& [width, height] : {std::pair{1, 1}, {1, 40}, {40, 1}, {16, 16}, {17, 5}, {65, 33}}) {
