@@ -19,6 +19,7 @@
 #include "platform/commands/compare_runs_command.hpp"
 #include "platform/commands/config_command.hpp"
 #include "platform/commands/exit_codes.hpp"
+#include "platform/commands/explore_command.hpp"
 #include "platform/commands/fifo_command.hpp"
 #include "platform/commands/glossary_command.hpp"
 #include "platform/commands/map_command.hpp"
@@ -103,6 +104,7 @@ bool parse(CLI::App& app, int argc, const char* const* argv, std::ostream& out) 
 
 void add_commands(CLI::App& app, CommandContext& context) {
   add_run_command(app, context);
+  add_explore_command(app, context);
   add_config_command(app, context);
   add_map_command(app, context);
   add_scene_command(app, context);

@@ -53,4 +53,13 @@ void add_input_options(CLI::App& command, RunOptions& options) {
       ->group("Rectification");
 }
 
+void add_timing_frames_option(CLI::App& command, RunOptions& options) {
+  command
+      .add_option(
+          "--timing-frames", options.timing_frames,
+          "Least number of frames to simulate; beyond the input, frames are timed without images. If not "
+          "given: so many that all buffers have been full, and three more")
+      ->group("Timing");
+}
+
 }  // namespace parallax

@@ -14,4 +14,7 @@ namespace parallax {
 /// command.
 void add_input_options(CLI::App& command, RunOptions& options);
 
+/// --timing-frames.
+void add_timing_frames_option(CLI::App& command, RunOptions& options);
+
 }  // namespace parallax

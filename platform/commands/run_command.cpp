@@ -73,12 +73,7 @@ void add_run_command(CLI::App& app, CommandContext& context) {
                 "Needs --out")
       ->group("Output");
   command.add_flag("!--no-point-cloud", options->point_cloud, "Do not write points.ply")->group("Output");
-  command
-      .add_option(
-          "--timing-frames", options->timing_frames,
-          "Least number of frames to simulate; beyond the input, frames are timed without images. If not "
-          "given: so many that all buffers have been full, and three more")
-      ->group("Timing");
+  add_timing_frames_option(command, *options);
   command
       .add_option("--trace", options->trace.formats,
                   "Write what happened when: perfetto (trace.pftrace), vcd, csv (trace_*.csv), json; several "

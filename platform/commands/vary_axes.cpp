@@ -8,7 +8,7 @@
 #include <set>
 #include <utility>
 
-#include "platform/commands/value_range.hpp"
+#include "platform/explore/value_range.hpp"
 #include "platform/config/nearest_key.hpp"
 #include "tlm/error.hpp"
 

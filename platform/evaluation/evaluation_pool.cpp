@@ -2,8 +2,10 @@
 #include "platform/evaluation/evaluation_pool.hpp"
 
 #include <poll.h>
+#include <sys/resource.h>
 
 #include <algorithm>
+#include <chrono>
 #include <exception>
 #include <map>
 #include <thread>
@@ -30,10 +32,24 @@ std::string request_of(const Variant& variant) {
   return {bytes.begin(), bytes.end()};
 }
 
+// What this process and those that it has waited for have had of a processor, s.
+double processor_seconds() {
+  double seconds = 0;
+  for (const int whose : {RUSAGE_SELF, RUSAGE_CHILDREN}) {
+    rusage usage{};
+    ::getrusage(whose, &usage);
+    for (const timeval& part : {usage.ru_utime, usage.ru_stime})
+      seconds += static_cast<double>(part.tv_sec) + static_cast<double>(part.tv_usec) * 1e-6;
+  }
+  return seconds;
+}
+
 // In one of the processes; the simulation has one of its own.
 std::string answer(const EvaluationPool::Preparation& prepare, const std::string& request) {
   EvaluationResult result;
   std::vector<std::string> notes;
+  const auto begin = std::chrono::steady_clock::now();
+  const double processor_before = processor_seconds();
   try {
     const Json tree = Json::from_cbor(request);
     const Variant variant{tree.at("assignments").get<std::vector<std::string>>(), tree.at("base")};
@@ -46,6 +62,8 @@ std::string answer(const EvaluationPool::Preparation& prepare, const std::string
     result = not_measured(Status::kFailed, error.what());
   }
   result.notes = std::move(notes);
+  result.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  result.processor_seconds = processor_seconds() - processor_before;
   return to_text(result);
 }
 
@@ -53,8 +71,12 @@ std::string answer(const EvaluationPool::Preparation& prepare, const std::string
 class Round {
  public:
   Round(const std::vector<std::unique_ptr<WorkerProcess>>& processes, const std::vector<Variant>& variants,
-        const EvaluationPool::Taker& take)
-      : processes_(processes), variants_(variants), take_(take), working_on_(processes.size()) {}
+        const EvaluationPool::Taker& take, EvaluationPool::Order order)
+      : processes_(processes),
+        variants_(variants),
+        take_(take),
+        in_order_(order == EvaluationPool::Order::kOfVariants),
+        working_on_(processes.size()) {}
 
   std::size_t run(const std::function<bool()>& interrupted) {
     for (;;) {
@@ -76,7 +98,7 @@ class Round {
     for (std::size_t i = 0; i < processes_.size(); ++i) {
       WorkerProcess& process = *processes_[i];
       if (process.state() == State::kIdle && next_ < variants_.size() &&
-          next_ < taken_ + kAheadOfEach * processes_.size()) {
+          (!in_order_ || next_ < taken_ + kAheadOfEach * processes_.size())) {
         working_on_[i] = next_;
         process.ask(request_of(variants_[next_++]));
         if (process.state() == State::kDied) results_[working_on_[i]] = without_result(process.signal());
@@ -105,6 +127,13 @@ class Round {
   }
 
   void hand_on() {
+    if (!in_order_) {
+      for (auto& [variant, result] : std::exchange(results_, {})) {
+        ++taken_;
+        take_(variant, std::move(result));
+      }
+      return;
+    }
     for (auto first = results_.find(taken_); first != results_.end(); first = results_.find(taken_)) {
       EvaluationResult result = std::move(first->second);
       results_.erase(first);
@@ -122,6 +151,7 @@ class Round {
   const std::vector<std::unique_ptr<WorkerProcess>>& processes_;
   const std::vector<Variant>& variants_;
   const EvaluationPool::Taker& take_;
+  const bool in_order_;
   std::vector<std::size_t> working_on_;              // by process
   std::map<std::size_t, EvaluationResult> results_;  // that wait for others before them
   std::size_t next_ = 0;
@@ -142,8 +172,9 @@ EvaluationPool::EvaluationPool(const Preparation& prepare, unsigned processes) {
 }
 
 std::size_t EvaluationPool::evaluate(const std::vector<Variant>& variants,
-                                     const std::function<bool()>& interrupted, const Taker& take) {
-  return Round(processes_, variants, take).run(interrupted);
+                                     const std::function<bool()>& interrupted, const Taker& take,
+                                     Order order) {
+  return Round(processes_, variants, take, order).run(interrupted);
 }
 
 }  // namespace parallax

@@ -41,12 +41,16 @@ class EvaluationPool {
   static unsigned usual_processes();
   explicit EvaluationPool(const Preparation& prepare, unsigned processes = usual_processes());
 
-  /// Hands each variant's result to `take` in the order of the variants, as soon as it and all before are
-  /// there; with `configuration`. A process that dies is a failure of its variant alone.
-  /// `interrupted` is asked some ten times a second; when it says yes, what is under way is given up. Returns
-  /// how many results were taken: all, unless interrupted.
+  enum class Order {
+    kOfVariants,  ///< each as soon as it and all before are there
+    kOfResults,   ///< each as soon as it is there
+  };
+
+  /// Hands each variant's result to `take`, in this order; with `configuration`. A process that dies is a
+  /// failure of its variant alone. `interrupted` is asked some ten times a second; when it says yes, what is
+  /// under way is given up. Returns how many results were taken: all, unless interrupted.
   std::size_t evaluate(const std::vector<Variant>& variants, const std::function<bool()>& interrupted,
-                       const Taker& take);
+                       const Taker& take, Order order = Order::kOfVariants);
 
  private:
   std::vector<std::unique_ptr<WorkerProcess>> processes_;

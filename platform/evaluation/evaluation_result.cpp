@@ -83,6 +83,8 @@ std::string to_text(const EvaluationResult& result) {
   return json_text(Json{{"status", name(result.status)},
                         {"message", result.message},
                         {"notes", result.notes},
+                        {"wall_seconds", result.wall_seconds},
+                        {"processor_seconds", result.processor_seconds},
                         {"metrics", to_json(result.metrics)},
                         {"configuration", result.configuration}});
 }
@@ -96,6 +98,8 @@ EvaluationResult evaluation_result(const std::string& text) try {
   EvaluationResult result = *status == Status::kDone ? measured(metrics_of(tree.at("metrics")))
                                                      : not_measured(*status, tree.at("message"));
   result.notes = tree.at("notes").get<std::vector<std::string>>();
+  result.wall_seconds = tree.at("wall_seconds");
+  result.processor_seconds = tree.at("processor_seconds");
   result.configuration = std::move(tree.at("configuration"));
   return result;
 } catch (const Json::exception&) {

@@ -40,6 +40,8 @@ struct EvaluationResult {
   MetricGroup metrics;                   ///< all that was measured; empty unless done
   nlohmann::ordered_json configuration;  ///< of the machine, key by key, where a pool evaluated it
   std::vector<std::string> notes;        ///< what was said of the input, one line each
+  double wall_seconds = 0;               ///< that it took, where a pool evaluated it
+  double processor_seconds = 0;          ///< likewise
 
   bool done() const { return status == Status::kDone; }
   /// Of the message, the line that says what to do: the last one.

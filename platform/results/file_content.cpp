@@ -4,7 +4,10 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <limits>
+#include <memory>
+#include <vector>
 
 namespace parallax {
 
@@ -17,6 +20,21 @@ void FileContent::add(const void* data, std::size_t count) {
     at += part;
     count -= part;
   }
+}
+
+FileContent content_of(const std::filesystem::path& path, std::uint64_t longest) {
+  struct Close {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+  };
+  FileContent content;
+  const std::unique_ptr<std::FILE, Close> file(std::fopen(path.c_str(), "rb"));
+  std::vector<char> chunk(std::size_t{1} << 16);
+  while (file && content.bytes <= longest) {
+    const std::size_t count = std::fread(chunk.data(), 1, chunk.size(), file.get());
+    if (count == 0) break;
+    content.add(chunk.data(), count);
+  }
+  return content;
 }
 
 }  // namespace parallax

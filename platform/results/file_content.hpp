@@ -3,6 +3,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
+#include <limits>
 #include <tuple>
 
 namespace parallax {
@@ -17,5 +19,9 @@ struct FileContent {
     return std::tie(bytes, crc) < std::tie(other.bytes, other.crc);
   }
 };
+
+/// Of a file, as far as it can be read; of one that may have grown, so many bytes and a little more.
+FileContent content_of(const std::filesystem::path& path,
+                       std::uint64_t longest = std::numeric_limits<std::uint64_t>::max());
 
 }  // namespace parallax

@@ -27,19 +27,6 @@ struct CloseFile {
 };
 using File = std::unique_ptr<std::FILE, CloseFile>;
 
-/// The content of a file that may have changed: read no further than it may be long.
-FileContent content_of(const fs::path& path, std::uint64_t longest) {
-  FileContent content;
-  const File file(std::fopen(path.c_str(), "rb"));
-  std::vector<char> chunk(std::size_t{1} << 16);
-  while (file && content.bytes <= longest) {
-    const std::size_t count = std::fread(chunk.data(), 1, chunk.size(), file.get());
-    if (count == 0) break;
-    content.add(chunk.data(), count);
-  }
-  return content;
-}
-
 std::string line_of(const std::string& name, const FileContent& content) {
   return fmt::format("{} {:08x} {}\n", content.bytes, content.crc, name);
 }

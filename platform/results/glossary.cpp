@@ -97,6 +97,18 @@ std::string with_code(const std::string& text) {
 
 std::string unit_of(const MetricInfo& info) { return info.unit.empty() ? "-" : info.unit; }
 
+// Whether the row's name, in which angle brackets stand for any name, is this.
+bool matches(std::string_view path, std::string_view row) {
+  const std::size_t open = row.find('<');
+  if (open == std::string_view::npos) return path == row;
+  const std::string_view before = row.substr(0, open);
+  const std::string_view after = row.substr(row.find('>') + 1);
+  if (path.size() <= before.size() + after.size()) return false;
+  const std::string_view name = path.substr(before.size(), path.size() - before.size() - after.size());
+  return path.substr(0, before.size()) == before && path.substr(path.size() - after.size()) == after &&
+         name.find('/') == std::string_view::npos;
+}
+
 }  // namespace
 
 std::string glossary_as_text() {
@@ -151,6 +163,23 @@ nlohmann::ordered_json glossary_as_json() {
   for (const Name& name : names())
     names_in_brackets.push_back({{"name", name.name}, {"meaning", name.meaning}});
   return {{"metrics", std::move(metrics)}, {"names", std::move(names_in_brackets)}};
+}
+
+const MetricInfo* find_run_metric(std::string_view path) {
+  for (const MetricTable* table : sections().front().tables) {
+    for (const MetricInfo& row : table->rows()) {
+      if (matches(path, row.path)) return &row;
+    }
+  }
+  return nullptr;
+}
+
+std::vector<std::string> run_metric_names() {
+  std::vector<std::string> names;
+  for (const MetricTable* table : sections().front().tables) {
+    for (const MetricInfo& row : table->rows()) names.push_back(row.path);
+  }
+  return names;
 }
 
 }  // namespace parallax

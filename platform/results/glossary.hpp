@@ -3,6 +3,10 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
+#include <vector>
+
+#include "traces/metric_table.hpp"
 
 namespace parallax {
 
@@ -11,5 +15,10 @@ namespace parallax {
 std::string glossary_as_text();
 std::string glossary_as_markdown();
 nlohmann::ordered_json glossary_as_json();
+
+/// The entry of a number that a run can write, "memory/map/bandwidth"; null if there is none of that name.
+const MetricInfo* find_run_metric(std::string_view path);
+/// The names of these, with angle brackets.
+std::vector<std::string> run_metric_names();
 
 }  // namespace parallax

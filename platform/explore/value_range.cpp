@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "platform/commands/value_range.hpp"
+#include "platform/explore/value_range.hpp"
 
 #include <fmt/format.h>
 

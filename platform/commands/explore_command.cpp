@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "platform/commands/explore_command.hpp"
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "platform/commands/command_context.hpp"
+#include "platform/commands/common_options.hpp"
+#include "platform/commands/explore.hpp"
+
+namespace parallax {
+
+void add_explore_command(CLI::App& app, CommandContext& context) {
+  const auto options = std::make_shared<ExploreOptions>();
+  CLI::App& command = *app.add_subcommand(
+      "explore", "Many machines, timed: sweeps and samples with constraints, and the best of them");
+  command.option_defaults()->take_last();
+  command
+      .add_option("spec", options->spec, "What varies, what must hold and what is to be best: a TOML file")
+      ->type_name("SPEC")
+      ->required();
+  command
+      .add_option("--out", options->out,
+                  "Folder for the results: results.db, points.csv, front.csv. Points that it knows are not "
+                  "evaluated again")
+      ->type_name("DIR")
+      ->required();
+  add_json_option(command, options->json);
+  command.callback(
+      [options, &context] { context.action = [options, &context] { return explore(*options, context); }; });
+}
+
+}  // namespace parallax

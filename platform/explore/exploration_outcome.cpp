@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "platform/explore/exploration_outcome.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "platform/explore/judgement.hpp"
+
+namespace parallax {
+namespace {
+
+std::optional<double> number(const StoredResult& result, const std::string& metric) {
+  const auto found = result.metrics.find(metric);
+  if (found == result.metrics.end()) return std::nullopt;
+  const double* const value = std::get_if<double>(&found->second);
+  return value == nullptr ? std::nullopt : std::optional(*value);
+}
+
+// One point after the other; what is kept of each is its objectives.
+class Judge {
+ public:
+  explicit Judge(const ExplorationSpec& spec) : spec_(spec) {}
+
+  void look_at(const StoredPoint& point) {
+    ++outcome_.by_status[point.result.status];
+    if (point.result.status != "done") return;
+    double missed = 0;
+    NearestMiss worst{point.number, nullptr, 0};
+    double most = 0;
+    for (const Constraint& constraint : spec_.constraints) {
+      const std::optional<double> value = number(point.result, constraint.metric);
+      const double by = miss(constraint, value);
+      missed += by;
+      if (by > most) {
+        most = by;
+        worst.constraint = &constraint;
+        worst.value = value.value_or(std::nan(""));
+      }
+    }
+    if (missed > 0) {
+      if (missed < least_missed_) {
+        least_missed_ = missed;
+        outcome_.nearest = worst;
+      }
+      return;
+    }
+    outcome_.satisfied.insert(point.number);
+    if (spec_.objectives.empty()) return;
+    numbers_.push_back(point.number);
+    rows_.emplace_back();
+    for (const Objective& objective : spec_.objectives)
+      rows_.back().push_back(number(point.result, objective.metric));
+  }
+
+  ExplorationOutcome outcome() {
+    if (!outcome_.satisfied.empty()) outcome_.nearest.reset();
+    if (spec_.objectives.empty()) {
+      outcome_.front = outcome_.satisfied;
+    } else {
+      for (const std::size_t row : pareto_front(rows_, spec_.objectives))
+        outcome_.front.insert(numbers_[row]);
+    }
+    return std::move(outcome_);
+  }
+
+ private:
+  const ExplorationSpec& spec_;
+  ExplorationOutcome outcome_;
+  double least_missed_ = std::numeric_limits<double>::infinity();
+  std::vector<std::size_t> numbers_;  // of those satisfied
+  std::vector<std::vector<std::optional<double>>> rows_;
+};
+
+}  // namespace
+
+std::size_t ExplorationOutcome::done() const {
+  const auto found = by_status.find("done");
+  return found == by_status.end() ? 0 : found->second;
+}
+
+ExplorationOutcome judge(const ExplorationSpec& spec, ResultStore& store) {
+  Judge judge(spec);
+  store.each_point(spec.named_metrics(), [&judge](const StoredPoint& point) { judge.look_at(point); });
+  return judge.outcome();
+}
+
+}  // namespace parallax

@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "platform/explore/exploration_spec.hpp"
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <set>
+#include <sstream>
+#include <utility>
+
+#include "platform/config/machine_config.hpp"
+#include "platform/config/nearest_key.hpp"
+#include "platform/config/nearest_name.hpp"
+#include "platform/config/toml_text.hpp"
+#include "platform/explore/axis_reader.hpp"
+#include "platform/explore/toml_part.hpp"
+#include "tlm/error.hpp"
+
+namespace parallax {
+namespace {
+
+constexpr std::size_t kMostPoints = 1'000'000;
+constexpr std::array<std::pair<const char*, SamplingMethod>, 4> kMethods{
+    {{"grid", SamplingMethod::kGrid},
+     {"random", SamplingMethod::kRandom},
+     {"latin-hypercube", SamplingMethod::kLatinHypercube},
+     {"sobol", SamplingMethod::kSobol}}};
+
+class Reader {
+ public:
+  Reader(const std::filesystem::path& file, const std::vector<std::string>& run_options)
+      : file_(file.string()), run_options_(run_options) {
+    describe(schema_, machine_);
+  }
+
+  ExplorationSpec read(const toml::table& table) {
+    for (const auto& [key, node] : table) {
+      const auto part = std::find_if(kParts.begin(), kParts.end(),
+                                     [&name = key](const Part& known) { return name == known.name; });
+      if (part == kParts.end()) {
+        std::vector<std::string> names;
+        for (const Part& known : kParts) names.emplace_back(known.name);
+        const std::string name(key.str());
+        fail(node,
+             fmt::format("unknown part {}; the nearest is {}", excerpt(name), nearest_name(name, names)));
+      }
+      (this->*part->read)(TomlPart{file_, part->name, &node});
+    }
+    check_names();
+    return std::move(spec_);
+  }
+
+ private:
+  struct Part {
+    const char* name;
+    void (Reader::*read)(const TomlPart& part);
+  };
+  static const std::array<Part, 10> kParts;
+
+  [[noreturn]] void fail(const toml::node& node, const std::string& why) const {
+    throw UserError(fmt::format("{}: {}", toml_origin(file_, node), why));
+  }
+
+  void read_description(const TomlPart& part) { spec_.description = part.text(); }
+
+  void read_run(const TomlPart& part) {
+    for (const TomlPart& entry : part.entries()) {
+      if (std::find(run_options_.begin(), run_options_.end(), entry.name) == run_options_.end()) {
+        entry.fail(fmt::format("unknown option; the nearest is {}", nearest_name(entry.name, run_options_)));
+      }
+      RunWord word{entry.name, {}};
+      if (const toml::value<bool>* const flag = entry.node->as_boolean()) {
+        if (flag->get()) spec_.run.push_back(word);
+        continue;
+      }
+      word.values = entry.values();
+      spec_.run.push_back(std::move(word));
+    }
+  }
+
+  void read_set(const TomlPart& part) {
+    for (const TomlPart& entry : part.leaves()) {
+      require_key(entry);
+      spec_.assignments.push_back(entry.name + "=" + entry.value());
+    }
+  }
+
+  void read_vary(const TomlPart& part) {
+    for (const TomlPart& entry : part.leaves()) {
+      const bool option =
+          std::find(run_options_.begin(), run_options_.end(), entry.name) != run_options_.end();
+      spec_.axes.push_back(read_axis(entry, option ? nullptr : &require_key(entry)));
+    }
+  }
+
+  void read_link(const TomlPart& part) {
+    for (const TomlPart& entry : part.leaves()) {
+      require_key(entry);
+      spec_.links.push_back({entry.name, entry.text(), entry.origin()});
+    }
+  }
+
+  void read_conditions(const TomlPart& part) {
+    for (const TomlPart& entry : part.elements()) spec_.conditions.push_back({entry.text(), entry.origin()});
+  }
+
+  void read_sampling(const TomlPart& part) {
+    for (const TomlPart& entry : part.entries()) {
+      if (entry.name == "method") {
+        spec_.sampling.method = method_of(entry);
+      } else if (entry.name == "points") {
+        spec_.sampling.points = static_cast<std::size_t>(entry.whole(1, kMostPoints));
+      } else if (entry.name == "seed") {
+        spec_.sampling.seed = static_cast<std::uint64_t>(entry.whole(0, 999'999'999'999'999'999));
+      } else {
+        entry.fail("unknown; [sampling] has method, points and seed");
+      }
+    }
+    const bool grid = spec_.sampling.method == SamplingMethod::kGrid;
+    if (grid && spec_.sampling.points != 0) part.fail("a grid has all points; points goes with the others");
+    if (!grid && spec_.sampling.points == 0) part.fail("points = NUMBER is missing: how many to take");
+  }
+
+  SamplingMethod method_of(const TomlPart& entry) const {
+    const std::string name = entry.text();
+    for (const auto& [known, method] : kMethods) {
+      if (name == known) return method;
+    }
+    entry.fail(fmt::format("'{}' is none of grid, random, latin-hypercube, sobol", excerpt(name)));
+  }
+
+  void read_constraints(const TomlPart& part) {
+    for (const TomlPart& entry : part.entries()) {
+      Constraint constraint{entry.name, {}, {}, entry.origin()};
+      for (const TomlPart& bound : entry.entries()) {
+        if (bound.name != "at_least" && bound.name != "at_most")
+          bound.fail("unknown; a constraint has at_least, at_most, or both");
+        (bound.name == "at_least" ? constraint.at_least : constraint.at_most) = bound.number();
+      }
+      if (!constraint.at_least && !constraint.at_most)
+        entry.fail("a constraint has at_least, at_most, or both");
+      if (constraint.at_least && constraint.at_most && *constraint.at_least > *constraint.at_most)
+        entry.fail("at_least is above at_most: nothing can satisfy that");
+      spec_.constraints.push_back(std::move(constraint));
+    }
+  }
+
+  void read_objectives(const TomlPart& part) {
+    for (const TomlPart& entry : part.entries()) {
+      const std::string sense = entry.text();
+      if (sense != "most" && sense != "least") entry.fail("must be \"most\" or \"least\"");
+      spec_.objectives.push_back({entry.name, sense == "most", entry.origin()});
+    }
+  }
+
+  void read_metrics(const TomlPart& part) {
+    for (const TomlPart& entry : part.elements()) spec_.metrics.push_back(entry.text());
+  }
+
+  const Key& require_key(const TomlPart& entry) const {
+    if (const Key* key = schema_.find(entry.name)) return *key;
+    std::vector<std::string> names;
+    for (const Key& key : schema_.keys()) names.push_back(key.path);
+    if (entry.section == "vary") names.insert(names.end(), run_options_.begin(), run_options_.end());
+    entry.fail(fmt::format("unknown key; the nearest is {}", nearest_key(entry.name, names)));
+  }
+
+  // What is said of a name in two places contradicts itself.
+  void check_names() const {
+    std::set<std::string> said;
+    const auto say = [&](const std::string& name) {
+      if (!said.insert(name).second)
+        throw UserError(
+            fmt::format("{}: {} is given twice: a point's value of it has one source", file_, name));
+    };
+    for (const RunWord& word : spec_.run) say(word.option);
+    for (const std::string& assignment : spec_.assignments) say(assignment.substr(0, assignment.find('=')));
+    for (const Axis& axis : spec_.axes) say(axis.name);
+    for (const LinkedKey& link : spec_.links) say(link.key);
+    if (said.count("disparities") != 0 && said.count("matching.iterations") != 0)
+      throw UserError(fmt::format(
+          "{}: disparities and matching.iterations exclude each other: both set the range", file_));
+    if (spec_.axes.empty()) throw UserError(fmt::format("{}: nothing varies; [vary] says what does", file_));
+    const bool spans = std::any_of(spec_.axes.begin(), spec_.axes.end(),
+                                   [](const Axis& axis) { return axis.span.has_value(); });
+    if (spans && spec_.sampling.method == SamplingMethod::kGrid)
+      throw UserError(fmt::format(
+          "{}: a grid needs a step or a factor between from and to; or [sampling] another method", file_));
+  }
+
+  const std::string file_;
+  const std::vector<std::string>& run_options_;
+  MachineConfig machine_;
+  Schema schema_;
+  ExplorationSpec spec_;
+};
+
+const std::array<Reader::Part, 10> Reader::kParts{{{"description", &Reader::read_description},
+                                                   {"run", &Reader::read_run},
+                                                   {"set", &Reader::read_set},
+                                                   {"vary", &Reader::read_vary},
+                                                   {"link", &Reader::read_link},
+                                                   {"conditions", &Reader::read_conditions},
+                                                   {"sampling", &Reader::read_sampling},
+                                                   {"constraints", &Reader::read_constraints},
+                                                   {"objectives", &Reader::read_objectives},
+                                                   {"metrics", &Reader::read_metrics}}};
+
+}  // namespace
+
+std::vector<std::string> ExplorationSpec::named_metrics() const {
+  std::vector<std::string> names;
+  const auto add = [&names](const std::string& name) {
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  };
+  for (const Objective& objective : objectives) add(objective.metric);
+  for (const Constraint& constraint : constraints) add(constraint.metric);
+  for (const std::string& name : metrics) add(name);
+  return names;
+}
+
+ExplorationSpec read_exploration_spec(const std::filesystem::path& file,
+                                      const std::vector<std::string>& run_options) {
+  const toml::table table = read_toml(file, "exploration");
+  ExplorationSpec spec = Reader(file, run_options).read(table);
+  std::ostringstream text;
+  text << table;
+  spec.text = text.str();
+  return spec;
+}
+
+}  // namespace parallax

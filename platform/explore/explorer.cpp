@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "platform/explore/explorer.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <utility>
+
+#include "platform/results/result_schema.hpp"
+#include "platform/results/version.hpp"
+#include "tlm/error.hpp"
+
+namespace parallax {
+namespace {
+
+// Handed to the pool at a time: enough that its processes seldom wait for the last of them.
+constexpr std::size_t kAtATime = 512;
+
+std::string host_name() {
+  std::array<char, 256> name{};
+  return ::gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "unknown";
+}
+
+// Results of another build of the program are others.
+std::string identity_of(const PointIdentity& point) {
+  return fmt::format("{} {} {} {}", point.configuration, version(), revision(), point.input);
+}
+
+StoredValue stored(const Metric* metric) {
+  if (metric == nullptr) return {};
+  if (metric->is_number()) return metric->number();
+  if (const auto* word = std::get_if<std::string>(&metric->value)) return *word;
+  return {};
+}
+
+}  // namespace
+
+const std::vector<std::string>& usual_metrics() {
+  static const std::vector<std::string> names{"performance/frame_rate",
+                                              "latency/exposure_to_host_mean",
+                                              "latency/exposure_to_host_p99",
+                                              "limit/utilisation",
+                                              "memory/share",
+                                              "energy/frame_total"};
+  return names;
+}
+
+Explorer::Explorer(const ExplorationSpec& spec, ResultStore& store, EvaluationPool& pool, Identify identify)
+    : spec_(spec),
+      store_(store),
+      pool_(pool),
+      identify_(std::move(identify)),
+      metrics_(spec.named_metrics()) {
+  for (const std::string& name : usual_metrics()) {
+    if (std::find(metrics_.begin(), metrics_.end(), name) == metrics_.end()) metrics_.push_back(name);
+  }
+}
+
+ExplorationCounts Explorer::run(const std::function<bool()>& interrupted, const Advance& advance) {
+  interrupted_ = interrupted;
+  advance_ = advance;
+  PointSource points(spec_);
+  while (!interrupted_()) {
+    std::optional<ExplorationPoint> point = points.next();
+    if (point) look_at(std::move(*point));
+    if (!point || waiting_.size() == kAtATime) evaluate();
+    if (!point) break;
+  }
+  return counts_;
+}
+
+void Explorer::look_at(ExplorationPoint point) {
+  StoredPoint next{point.number, point.values, {}};
+  StoredResult& result = next.result;
+  result.schema = kResultSchema;
+  result.revision = revision();
+  result.host = host_name();
+  try {
+    const PointIdentity what = identify_(point);
+    result.identity = identity_of(what);
+    result.configuration = what.configuration;
+    result.input = what.input;
+    result.command = what.command;
+    result.seed = what.seed;
+  } catch (const UserError& error) {
+    result.status = name(EvaluationResult::Status::kInvalid);
+    result.message = error.what();
+    for (const std::string& value : point.values) result.identity += value + " ";
+    result.identity += fmt::format("{} {}: {}", version(), revision(), result.message);
+  }
+  if (stands(next)) return;
+  if (!result.status.empty()) {
+    store_.add(next);
+    ++counts_.points;
+    ++counts_.not_done;
+    advance_(1);
+    return;
+  }
+  const bool twin = std::any_of(waiting_.begin(), waiting_.end(), [&](const StoredPoint& other) {
+    return other.result.identity == result.identity;
+  });
+  (twin ? twins_ : waiting_).push_back(std::move(next));
+}
+
+// Whether its result is known; then the point is there too.
+bool Explorer::stands(const StoredPoint& point) {
+  const std::optional<KnownResult> known = store_.find(point.result.identity, metrics_);
+  if (!known) return false;
+  if (!store_.has(point.number, known->id)) store_.add(point.number, point.values, known->id);
+  ++counts_.points;
+  if (!known->done) ++counts_.not_done;
+  advance_(1);
+  return true;
+}
+
+void Explorer::evaluate() {
+  std::vector<Variant> variants;
+  for (const StoredPoint& point : waiting_) variants.push_back({point.values, 0});
+  pool_.evaluate(
+      variants, interrupted_,
+      [this](std::size_t number, EvaluationResult result) { take(waiting_[number], std::move(result)); },
+      EvaluationPool::Order::kOfResults);
+  waiting_.clear();
+  for (const StoredPoint& twin : std::exchange(twins_, {})) stands(twin);
+}
+
+void Explorer::take(StoredPoint& point, EvaluationResult result) {
+  StoredResult& kept = point.result;
+  kept.status = name(result.status);
+  kept.message = std::move(result.message);
+  kept.limit = result.done() ? result.limit.part : "";
+  kept.wall_seconds = result.wall_seconds;
+  kept.processor_seconds = result.processor_seconds;
+  if (result.done()) {
+    for (const std::string& name : metrics_) kept.metrics[name] = stored(result.metrics.find(name));
+  }
+  store_.add(point);
+  ++counts_.points;
+  ++counts_.evaluated;
+  if (!result.done()) ++counts_.not_done;
+  advance_(1);
+}
+
+}  // namespace parallax

@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: Apache-2.0
+// Explorations from the command line: what they find, and what survives an end at any moment.
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <csignal>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <thread>
+
+#include "tests/cli/program.hpp"
+
+namespace parallax {
+namespace explore_test {
+
+constexpr const char* kSpec = R"(
+[run]
+preset = "core-alone"
+rectified = true
+size = "64x48"
+timing-frames = 2
+[vary]
+clocks.core_hz = { from = 100e6, to = 160e6, step = 20e6 }
+streams.default_depth = [4, 8]
+matching.parallelism = [16, 32]
+[link]
+matching.iterations = "64 / matching.parallelism"
+[constraints]
+"performance/frame_rate" = { at_least = 3000 }
+[objectives]
+"performance/frame_rate" = "most"
+"energy/frame_total" = "least"
+)";
+
+nlohmann::json json_of(const test::Outcome& outcome) {
+  return nlohmann::json::parse(outcome.out, nullptr, false);
+}
+
+int count(const test::Program& program, const std::string& query) {
+  SQLite::Database database((program / "out/results.db").string());
+  return database.execAndGet(query).getInt();
+}
+
+TEST(Explore, FindsTheFrontAndKnowsItsPointsNextTime) {
+  const test::Program program;
+  program.folder().write("s.toml", kSpec);
+  const test::Outcome first = program("explore s.toml --out out --json");
+  ASSERT_EQ(first.code, 0) << first.err;
+  const nlohmann::json tree = json_of(first);
+  EXPECT_EQ(tree["points"], 16);
+  EXPECT_EQ(tree["evaluated"], 16);
+  EXPECT_EQ(tree["statuses"]["done"], 16);
+  EXPECT_EQ(program.files("out"), (std::vector<std::string>{"front.csv", "points.csv", "results.db"}));
+  // A point is what the program measures when it runs it alone.
+  const nlohmann::json point = tree["front"][0];
+  const std::string command = point["command"];
+  const test::Outcome alone = program(command.substr(command.find("run")) + " --json -q");
+  const nlohmann::json timing = json_of(alone);
+  EXPECT_EQ(timing["performance"]["frame_rate"]["value"],
+            point["metrics"]["performance/frame_rate"]["value"]);
+  EXPECT_EQ(timing["schema"]["configuration"]["value"], point["configuration"]);
+
+  const nlohmann::json again = json_of(program("explore s.toml --out out --json"));
+  EXPECT_EQ(again["evaluated"], 0);
+  EXPECT_EQ(again["front"], tree["front"]);
+  // Another exploration that meets some of the same points evaluates the others only.
+  std::string other = kSpec;
+  other.replace(other.find("[4, 8]"), 6, "[8, 12]");
+  program.folder().write("s.toml", other);
+  EXPECT_EQ(json_of(program("explore s.toml --out out --json"))["evaluated"], 8);
+  // A number that was not kept is measured.
+  other += "\"memory/row_hits\" = \"most\"\n";
+  program.folder().write("s.toml", other);
+  EXPECT_EQ(json_of(program("explore s.toml --out out --json"))["evaluated"], 16);
+  EXPECT_EQ(count(program, "SELECT count(*) FROM result"), 24);
+}
+
+// Ended at any moment, it goes on where it was: all points come, none twice, and the tables are the same.
+TEST(Explore, SurvivesItsEndAtAnyMoment) {
+  const test::Program whole;
+  whole.folder().write("s.toml", kSpec);
+  ASSERT_EQ(whole("explore s.toml --out out").code, 0);
+  std::mt19937 random(11);
+  const test::Program program;
+  program.folder().write("s.toml", kSpec);
+  for (int round = 0; round < 6; ++round) {
+    const pid_t child = program.start("explore s.toml --out out");
+    std::this_thread::sleep_for(std::chrono::milliseconds(random() % 150));
+    ::kill(child, SIGKILL);
+    program.wait(child);
+  }
+  const test::Outcome last = program("explore s.toml --out out");
+  EXPECT_EQ(last.code, 0) << last.err;
+  EXPECT_EQ(program.read("out/points.csv"), whole.read("out/points.csv"));
+  EXPECT_EQ(program.read("out/front.csv"), whole.read("out/front.csv"));
+  EXPECT_EQ(count(program, "SELECT max(id) FROM result"), 16) << "what was there was not evaluated again";
+}
+
+TEST(Explore, StopsInAnOrderlyWay) {
+  const test::Program program;
+  std::string spec = kSpec;
+  spec.replace(spec.find("timing-frames = 2"), 17, "timing-frames = 3000");
+  program.folder().write("s.toml", spec);
+  const pid_t child = program.start("explore s.toml --out out --json");
+  for (int i = 0; i < 500 && !std::filesystem::exists(program / "out/results.db"); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  ::kill(child, SIGINT);
+  const test::Outcome outcome = program.wait(child);
+  EXPECT_EQ(outcome.code, 130);
+  const nlohmann::json tree = json_of(outcome);
+  ASSERT_TRUE(tree.is_object()) << outcome.out;
+  EXPECT_LT(tree["there"], 16);
+  EXPECT_NE(outcome.err.find(fmt::format("interrupted after {} of 16 points", tree["there"].get<int>())),
+            std::string::npos)
+      << outcome.err;
+}
+
+TEST(Explore, KeepsASecondOneOut) {
+  const test::Program program;
+  std::string spec = kSpec;
+  spec.replace(spec.find("timing-frames = 2"), 17, "timing-frames = 3000");
+  program.folder().write("s.toml", spec);
+  const pid_t child = program.start("explore s.toml --out out");
+  for (int i = 0; i < 500 && !std::filesystem::exists(program / "out/results.db"); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  test::Program other;
+  const test::Outcome second =
+      other(fmt::format("explore {} --out {}", (program / "s.toml").string(), (program / "out").string()));
+  ::kill(child, SIGINT);
+  program.wait(child);
+  EXPECT_EQ(second.code, 2);
+  EXPECT_NE(second.err.find("another"), std::string::npos) << second.err;
+}
+
+TEST(Explore, ShowsTheNearestMiss) {
+  const test::Program program;
+  std::string spec = kSpec;
+  spec.replace(spec.find("3000"), 4, "1e9 ");
+  program.folder().write("s.toml", spec);
+  const test::Outcome outcome = program("explore s.toml --out out");
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_NE(outcome.out.find("satisfied           0\nnearest             point "), std::string::npos)
+      << outcome.out;
+  EXPECT_NE(outcome.out.find(": performance/frame_rate is "), std::string::npos);
+  EXPECT_NE(outcome.out.find(" fps, at least 1000000000 fps asked for\n"), std::string::npos) << outcome.out;
+}
+
+TEST(Explore, KeepsWhatCannotBeMeasuredAsRows) {
+  const test::Program program;
+  program.folder().write("s.toml", R"(
+[run]
+preset = "core-alone"
+rectified = true
+size = "64x48"
+timing-frames = 2
+[vary]
+matching.iterations = [2, 100000]
+streams.left_texture.depth = [4, 0]
+)");
+  const test::Outcome outcome = program("explore s.toml --out out --json");
+  const nlohmann::json tree = json_of(outcome);
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(tree["statuses"]["done"], 1) << outcome.out;
+  EXPECT_EQ(tree["statuses"]["stuck"], 1);
+  EXPECT_EQ(tree["statuses"]["invalid"], 2);
+  const std::string table = program.read("out/points.csv");
+  EXPECT_NE(table.find("would free it (now 4)"), std::string::npos) << table;
+  EXPECT_NE(table.find("matching.iterations = 100000"), std::string::npos) << table;
+}
+
+struct Wrong {
+  const char* replaced;
+  const char* by;
+  const char* line;
+};
+
+void PrintTo(const Wrong& wrong, std::ostream* out) { *out << wrong.by; }
+
+class WrongExploration : public ::testing::TestWithParam<Wrong> {};
+
+TEST_P(WrongExploration, IsOneLineAndLeavesNothing) {
+  const test::Program program;
+  std::string spec = kSpec;
+  const std::string replaced = GetParam().replaced;
+  spec.replace(spec.find(replaced), replaced.size(), GetParam().by);
+  program.folder().write("s.toml", spec);
+  const test::Outcome outcome = program("explore s.toml --out out");
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_EQ(outcome.err, std::string("parallax: error: ") + GetParam().line + "\n");
+  EXPECT_EQ(program.files(), std::vector<std::string>{"s.toml"});
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Of, WrongExploration,
+    ::testing::Values(
+        Wrong{"\"energy/frame_total\"", "\"energy/total\"",
+              "s.toml:17: no number of a run is called energy/total; the nearest is energy/power_total "
+              "(parallax glossary)"},
+        Wrong{"\"64x48\"", "\"64by48\"", "s.toml: --size: '64by48' is not a size such as 640x480"},
+        Wrong{"timing-frames = 2", "timing-frames = \"two\"",
+              "s.toml: Could not convert: --timing-frames = two"},
+        Wrong{"rectified = true", "left = \"no.png\"",
+              "s.toml: --right is missing: a pair needs --left and --right"},
+        Wrong{"[vary]", "[set]", "s.toml:8: clocks.core_hz: must be a number, true, false or text"}));
+
+TEST(Explore, SaysWhatIsWrongWithItsDatabase) {
+  const test::Program program;
+  program.folder().write("s.toml", kSpec);
+  program.folder().write("out/results.db", std::string(3000, '?'));
+  const test::Outcome outcome = program("explore s.toml --out out");
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_EQ(outcome.err, "parallax: error: out/results.db: file is not a database\n");
+  EXPECT_EQ(program.read("out/results.db"), std::string(3000, '?'));
+}
+
+// A disk that is full: the line says so, and what was there can be gone on with.
+TEST(Explore, SurvivesAFullDisk) {
+  const test::Program program;
+  program.folder().write("s.toml", kSpec);
+  const test::Outcome full = program("explore s.toml --out out", [] {
+    std::signal(SIGXFSZ, SIG_IGN);
+    const rlimit limit{60'000, 60'000};
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+  });
+  EXPECT_EQ(full.code, 2) << full.out;
+  EXPECT_NE(full.err.find("out/results.db: "), std::string::npos) << full.err;
+  const test::Outcome after = program("explore s.toml --out out --json");
+  EXPECT_EQ(after.code, 0) << after.err;
+  EXPECT_EQ(json_of(after)["statuses"]["done"], 16);
+}
+
+}  // namespace explore_test
+}  // namespace parallax
