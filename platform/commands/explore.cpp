@@ -39,8 +39,9 @@ constexpr const char* kFront = "front.csv";
 // A number that no run has would be missing at every point.
 const MetricInfo& require_metric(const std::string& name, const std::string& where) {
   if (const MetricInfo* metric = find_run_metric(name)) return *metric;
-  throw UserError(fmt::format("{}: no number of a run is called {}; the nearest is {} (parallax glossary)",
-                              where, excerpt(name), nearest_key(name, run_metric_names())));
+  throw UserError(fmt::format(
+      "{}: {} is neither varied nor a number of a run; the nearest of these is {} (parallax glossary)", where,
+      excerpt(name), nearest_key(name, run_metric_names())));
 }
 
 class Exploration {
@@ -49,7 +50,7 @@ class Exploration {
       : options_(options),
         context_(context),
         spec_(read_exploration_spec(options.spec, timed_run_options())),
-        names_(PointSource(spec_).names()),
+        names_(spec_.varied_names()),
         metrics_(spec_.named_metrics()),
         inputs_(spec_, names_) {
     if (metrics_.empty()) metrics_ = usual_metrics();
@@ -150,10 +151,12 @@ class Exploration {
   }
 
   void check_metrics() const {
-    for (const Constraint& constraint : spec_.constraints)
-      require_metric(constraint.metric, constraint.origin);
-    for (const Objective& objective : spec_.objectives) require_metric(objective.metric, objective.origin);
-    for (const std::string& name : spec_.metrics) require_metric(name, options_.spec.string());
+    const auto require = [this](const std::string& name, const std::string& where) {
+      if (std::find(names_.begin(), names_.end(), name) == names_.end()) require_metric(name, where);
+    };
+    for (const Constraint& constraint : spec_.constraints) require(constraint.metric, constraint.origin);
+    for (const Objective& objective : spec_.objectives) require(objective.metric, objective.origin);
+    for (const std::string& name : spec_.metrics) require(name, options_.spec.string());
   }
 
   void write_tables(OutputFolder& folder, ResultStore& store, const ExplorationOutcome& outcome) const {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "platform/explore/exploration_outcome.hpp"
 
+#include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <limits>
 
@@ -9,17 +11,10 @@
 namespace parallax {
 namespace {
 
-std::optional<double> number(const StoredResult& result, const std::string& metric) {
-  const auto found = result.metrics.find(metric);
-  if (found == result.metrics.end()) return std::nullopt;
-  const double* const value = std::get_if<double>(&found->second);
-  return value == nullptr ? std::nullopt : std::optional(*value);
-}
-
 // One point after the other; what is kept of each is its objectives.
 class Judge {
  public:
-  explicit Judge(const ExplorationSpec& spec) : spec_(spec) {}
+  explicit Judge(const ExplorationSpec& spec) : spec_(spec), varied_(spec.varied_names()) {}
 
   void look_at(const StoredPoint& point) {
     ++outcome_.by_status[point.result.status];
@@ -28,7 +23,7 @@ class Judge {
     NearestMiss worst{point.number, nullptr, 0};
     double most = 0;
     for (const Constraint& constraint : spec_.constraints) {
-      const std::optional<double> value = number(point.result, constraint.metric);
+      const std::optional<double> value = number(point, constraint.metric);
       const double by = miss(constraint, value);
       missed += by;
       if (by > most) {
@@ -49,7 +44,7 @@ class Judge {
     numbers_.push_back(point.number);
     rows_.emplace_back();
     for (const Objective& objective : spec_.objectives)
-      rows_.back().push_back(number(point.result, objective.metric));
+      rows_.back().push_back(number(point, objective.metric));
   }
 
   ExplorationOutcome outcome() {
@@ -64,7 +59,25 @@ class Judge {
   }
 
  private:
+  // Of a metric, or of a key that varies; none where it is no number.
+  std::optional<double> number(const StoredPoint& point, const std::string& name) const {
+    const auto key = std::find(varied_.begin(), varied_.end(), name);
+    if (key != varied_.end()) return number_in(point.values[static_cast<std::size_t>(key - varied_.begin())]);
+    const auto found = point.result.metrics.find(name);
+    if (found == point.result.metrics.end()) return std::nullopt;
+    const double* const value = std::get_if<double>(&found->second);
+    return value == nullptr ? std::nullopt : std::optional(*value);
+  }
+
+  static std::optional<double> number_in(const std::string& text) {
+    double value = 0;
+    const char* const end = text.data() + text.size();
+    const auto [last, error] = std::from_chars(text.data(), end, value);
+    return error == std::errc() && last == end ? std::optional(value) : std::nullopt;
+  }
+
   const ExplorationSpec& spec_;
+  const std::vector<std::string> varied_;
   ExplorationOutcome outcome_;
   double least_missed_ = std::numeric_limits<double>::infinity();
   std::vector<std::size_t> numbers_;  // of those satisfied

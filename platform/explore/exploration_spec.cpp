@@ -133,7 +133,7 @@ class Reader {
   }
 
   void read_constraints(const TomlPart& part) {
-    for (const TomlPart& entry : part.entries()) {
+    for (const TomlPart& entry : part.leaves()) {
       Constraint constraint{entry.name, {}, {}, entry.origin()};
       for (const TomlPart& bound : entry.entries()) {
         if (bound.name != "at_least" && bound.name != "at_most")
@@ -149,7 +149,7 @@ class Reader {
   }
 
   void read_objectives(const TomlPart& part) {
-    for (const TomlPart& entry : part.entries()) {
+    for (const TomlPart& entry : part.leaves()) {
       const std::string sense = entry.text();
       if (sense != "most" && sense != "least") entry.fail("must be \"most\" or \"least\"");
       spec_.objectives.push_back({entry.name, sense == "most", entry.origin()});
@@ -211,9 +211,18 @@ const std::array<Reader::Part, 10> Reader::kParts{{{"description", &Reader::read
 
 }  // namespace
 
+std::vector<std::string> ExplorationSpec::varied_names() const {
+  std::vector<std::string> names;
+  for (const Axis& axis : axes) names.push_back(axis.name);
+  for (const LinkedKey& link : links) names.push_back(link.key);
+  return names;
+}
+
 std::vector<std::string> ExplorationSpec::named_metrics() const {
   std::vector<std::string> names;
-  const auto add = [&names](const std::string& name) {
+  const std::vector<std::string> varied = varied_names();
+  const auto add = [&](const std::string& name) {
+    if (std::find(varied.begin(), varied.end(), name) != varied.end()) return;
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
   };
   for (const Objective& objective : objectives) add(objective.metric);

@@ -43,15 +43,15 @@ struct SamplingPlan {
   std::uint64_t seed = 1;
 };
 
-/// A number of a run that has to lie within bounds.
+/// A number of a run, or a key that varies, that has to lie within bounds.
 struct Constraint {
-  std::string metric;  ///< path, "performance/frame_rate"
+  std::string metric;  ///< path, "performance/frame_rate"; or "clocks.core_hz"
   std::optional<double> at_least;
   std::optional<double> at_most;
   std::string origin;
 };
 
-/// A number of a run that is to be as small, or as large, as possible.
+/// A number of a run, or a key that varies, that is to be as small, or as large, as possible.
 struct Objective {
   std::string metric;
   bool most = false;
@@ -72,6 +72,8 @@ struct ExplorationSpec {
   std::vector<Objective> objectives;
   std::vector<std::string> metrics;  ///< further ones to be kept
 
+  /// What differs from point to point: axes, then linked keys.
+  std::vector<std::string> varied_names() const;
   /// Metrics that constraints, objectives and the list above name, each once.
   std::vector<std::string> named_metrics() const;
 };

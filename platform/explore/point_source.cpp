@@ -28,10 +28,13 @@ std::string as_text(const ConfigValue& value) {
 }  // namespace
 
 PointSource::PointSource(const ExplorationSpec& spec) : spec_(spec), sampling_(spec.axes, spec.sampling) {
-  for (const Axis& axis : spec.axes) names_.push_back(axis.name);
+  names_ = spec.varied_names();
+  // A link may use those before it.
+  std::vector<std::string> known(names_.begin(),
+                                 names_.end() - static_cast<std::ptrdiff_t>(spec.links.size()));
   for (const LinkedKey& link : spec.links) {
-    links_.emplace_back(link.expression, names_, link.origin);
-    names_.push_back(link.key);
+    links_.emplace_back(link.expression, known, link.origin);
+    known.push_back(link.key);
   }
   for (const Condition& condition : spec.conditions)
     conditions_.emplace_back(condition.expression, names_, condition.origin);

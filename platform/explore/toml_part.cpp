@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <tuple>
 
@@ -13,11 +14,17 @@
 namespace parallax {
 namespace {
 
+// What a table says that is no section of keys.
+constexpr std::array<const char*, 4> kOfALeaf{"from", "value", "at_least", "at_most"};
+
 void add_leaves(const TomlPart& part, const std::string& before, std::vector<TomlPart>& leaves) {
   for (TomlPart& entry : part.entries()) {
     entry.name = before + entry.name;
     const toml::table* const inner = entry.node->as_table();
-    if (inner != nullptr && !inner->contains("from") && !inner->contains("value")) {
+    const bool holds_more =
+        inner != nullptr && !inner->empty() &&
+        std::none_of(kOfALeaf.begin(), kOfALeaf.end(), [&](const char* key) { return inner->contains(key); });
+    if (holds_more) {
       add_leaves(entry, entry.name + ".", leaves);
     } else {
       entry.section = part.section;

@@ -25,7 +25,8 @@ struct TomlPart {
   [[noreturn]] void fail(const std::string& why) const;
 
   std::vector<TomlPart> entries() const;  ///< of a table
-  /// Of a table and those within it, with paths as names; a table with one of `from` and `value` is a leaf.
+  /// Of a table and those within it, with paths as names; a table that says what a value is, or its bounds,
+  /// is a leaf.
   std::vector<TomlPart> leaves() const;
   std::vector<TomlPart> elements() const;  ///< of an array
   std::string text() const;

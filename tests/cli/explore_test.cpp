@@ -197,8 +197,8 @@ INSTANTIATE_TEST_SUITE_P(
     Of, WrongExploration,
     ::testing::Values(
         Wrong{"\"energy/frame_total\"", "\"energy/total\"",
-              "s.toml:17: no number of a run is called energy/total; the nearest is energy/power_total "
-              "(parallax glossary)"},
+              "s.toml:17: energy/total is neither varied nor a number of a run; the nearest of these is "
+              "energy/power_total (parallax glossary)"},
         Wrong{"\"64x48\"", "\"64by48\"", "s.toml: --size: '64by48' is not a size such as 640x480"},
         Wrong{"timing-frames = 2", "timing-frames = \"two\"",
               "s.toml: Could not convert: --timing-frames = two"},

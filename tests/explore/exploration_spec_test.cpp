@@ -165,7 +165,7 @@ INSTANTIATE_TEST_SUITE_P(
               "s.toml:3: points: must be a whole number from 1 to 1000000"},
         Wrong{"[sampling]\nsed = 4", "s.toml:2: sed: unknown; [sampling] has method, points and seed"},
         Wrong{"[constraints]\n'a/b' = {}", "s.toml:2: a/b: a constraint has at_least, at_most, or both"},
-        Wrong{"[constraints]\n'a/b' = { least = 1 }",
+        Wrong{"[constraints]\n'a/b' = { at_least = 1, least = 1 }",
               "s.toml:2: least: unknown; a constraint has at_least, at_most, or both"},
         Wrong{"[constraints]\n'a/b' = { at_least = 2, at_most = 1 }",
               "s.toml:2: a/b: at_least is above at_most: nothing can satisfy that"},
