@@ -12,6 +12,7 @@
 #include <systemc>
 #include <vector>
 
+#include "platform/commands/ask_command.hpp"
 #include "platform/commands/circuit_command.hpp"
 #include "platform/commands/command_context.hpp"
 #include "platform/commands/common_options.hpp"
@@ -105,6 +106,7 @@ bool parse(CLI::App& app, int argc, const char* const* argv, std::ostream& out) 
 void add_commands(CLI::App& app, CommandContext& context) {
   add_run_command(app, context);
   add_explore_command(app, context);
+  add_ask_command(app, context);
   add_config_command(app, context);
   add_map_command(app, context);
   add_scene_command(app, context);

@@ -31,4 +31,14 @@ CommandLine CommandLine::with(const std::vector<std::string>& removed,
   return line;
 }
 
+CommandLine CommandLine::beginning(const std::vector<std::string>& first,
+                                   const std::vector<std::string>& dropped) const {
+  CommandLine line = *this;
+  line.words_ = first;
+  for (const std::string& word : words_) {
+    if (std::find(dropped.begin(), dropped.end(), word) == dropped.end()) line.words_.push_back(word);
+  }
+  return line;
+}
+
 }  // namespace parallax
