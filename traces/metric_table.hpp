@@ -32,6 +32,8 @@ class MetricTable {
  public:
   MetricTable(std::initializer_list<MetricInfo> rows) : rows_(rows) {}
   const std::vector<MetricInfo>& rows() const { return rows_; }
+  /// Puts rows behind the others.
+  void append(const std::vector<MetricInfo>& rows) { rows_.insert(rows_.end(), rows.begin(), rows.end()); }
   /// The row of a path. Throws std::logic_error: what is written has to be in the glossary.
   const MetricInfo& at(std::string_view path) const;
 

@@ -19,6 +19,7 @@
 #include "platform/commands/compare_command.hpp"
 #include "platform/commands/compare_runs_command.hpp"
 #include "platform/commands/config_command.hpp"
+#include "platform/commands/estimate_command.hpp"
 #include "platform/commands/exit_codes.hpp"
 #include "platform/commands/explore_command.hpp"
 #include "platform/commands/fifo_command.hpp"
@@ -121,6 +122,7 @@ void add_commands(CLI::App& app, CommandContext& context) {
   add_circuit_command(app, context);
   add_fifo_command(app, context);
   add_stage_command(app, context);
+  add_estimate_command(app, context);
   refuse_empty_values(app);
 }
 

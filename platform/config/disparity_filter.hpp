@@ -14,6 +14,14 @@ namespace parallax {
 class Schema;
 struct MachineConfig;
 
+/// What a filter's circuit holds, without its stage being made.
+struct FilterNeeds {
+  int look_ahead_rows = 0;
+  int look_ahead_pixels = 0;
+  std::uint32_t latency = 0;  ///< cycles
+  Bits storage{0};
+};
+
 /// A filter of the disparity map, as the machine can hold it: its keys and its stage (disparity_filters.hpp
 /// is the list of them, filter_of.hpp the way to make one).
 class DisparityFilter {
@@ -43,6 +51,8 @@ class DisparityFilter {
   virtual void validate(const MachineConfig& machine) const = 0;
   /// False: disparities pass as they are.
   virtual bool enabled(const MachineConfig& machine) const = 0;
+  /// For images, or tiles of them, of this size, of which `at_once` pixels of a row pass together.
+  virtual FilterNeeds needs(const MachineConfig& machine, int width, int height, int at_once) const = 0;
   virtual Made make(const std::string& name, const MachineConfig& machine,
                     const StageContext& context) const = 0;
 

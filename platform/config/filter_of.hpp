@@ -64,6 +64,11 @@ class FilterOf final : public DisparityFilter, public Kept {
   StageTiming& timing(MachineConfig& machine) override { return Kept::timing(machine); }
   void validate(const MachineConfig& machine) const override { Kept::config(machine).validate(); }
   bool enabled(const MachineConfig& machine) const override { return enabled_(Kept::config(machine)); }
+  FilterNeeds needs(const MachineConfig& machine, int width, int height, int at_once) const override {
+    const Kernel kernel(Kept::config(machine), width, height);
+    return {kernel.look_ahead_rows(), kernel.look_ahead_pixels(), Kept::timing(machine).latency,
+            storage_of(kernel, at_once)};
+  }
   Made make(const std::string& name, const MachineConfig& machine,
             const StageContext& context) const override {
     auto stage = std::make_unique<DisparityFilterStage<Kernel, Config>>(name.c_str(), Kept::config(machine),

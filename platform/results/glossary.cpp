@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "platform/config/energy_config.hpp"
+#include "platform/estimate/estimate_metrics.hpp"
 #include "platform/machine/frame_latencies.hpp"
 #include "platform/results/deadlock_report.hpp"
 #include "platform/results/energy.hpp"
@@ -39,7 +40,10 @@ const std::vector<Section>& sections() {
        {&run_table(), &rate_table(), &memory_table(), &energy_table(), &pipeline_table(), &deadlock_table()}},
       {"Numbers of parallax memory",
        "What an address trace, replayed against the DRAM alone, comes to.",
-       {&replay_table()}}};
+       {&replay_table()}},
+      {"Numbers of parallax estimate",
+       "What the machine takes of an FPGA: cells of its circuits, and the share of a device.",
+       {&estimate_table()}}};
   return all;
 }
 
@@ -61,6 +65,8 @@ std::vector<Name> names() {
        "overlap, a stage "
        "that looks ahead has two sides: `<name>` reads, `<name>_writing` writes."},
       {"<stream>", "A FIFO between two stages, or between a stage and a memory port."},
+      {"<buffer>", "What a stage keeps in a memory: lines of an image, path costs, a burst."},
+      {"<device>", "A device, by the name of its file; - is _."},
       {"<buffers>", "left, right or output: buffers in memory between two engines."},
       {"<wait>", "wait_1, wait_2 and so on."},
       {"limit/utilisation_by_part/<part>",

@@ -104,6 +104,7 @@ TEST_F(Glossary, NamesEveryNumberAndNoOther) {
   check(alone + "--set streams.left_texture.depth=20 --set pipeline.pixels_per_token=2");
   program_.folder().write("trace.csv", "time_ns,rw,addr,bytes\n0,R,0x0,64\n0,W,0x8000,64\n");
   check("memory trace.csv --config ddr3-1066-x32 --json");
+  check("estimate --json");
   for (const Entry& entry : entries_) EXPECT_TRUE(entry.occurs) << "no run writes " << entry.name;
 }
 
