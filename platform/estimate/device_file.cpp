@@ -111,7 +111,9 @@ void describe(Schema& schema, DeviceFile& device) {
   schema.real("family.register_weight", device.register_weight, kWeight, "",
               "Weight of a bit of a memory that is made of registers, beside those of RAMs.", origin);
   schema.real("family.multiplexer_weight", device.multiplexer_weight, kWeight, "",
-              "Weight of an input bit of the multiplexer behind a memory's banks.", origin);
+              "Weight of a bit of a choice of two behind a memory's banks.", origin);
+  schema.real("family.bank_weight", device.bank_weight, kWeight, "",
+              "Weight of the decoding of a bank of RAM.", origin);
   schema.integer("family.shift_register_words", device.shift_register_words, {0, 1024}, "bits",
                  "Length of the shift register that a LUT can be; 0: none.", origin);
   schema.integer("family.multiplier_a_bits", device.multiplier_a_bits, {1, 256}, "bits",

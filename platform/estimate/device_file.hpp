@@ -48,7 +48,8 @@ struct DeviceFile {
   RamKind double_block_ram;                ///< two of them together
   RamKind lut_ram;                         ///< read in the same cycle
   double register_weight = 1;              ///< of a bit in a register, beside the weights of RAM kinds
-  double multiplexer_weight = 0.5;         ///< of a bit of a multiplexer behind banks
+  double multiplexer_weight = 0.5;         ///< of a bit of a choice of two behind banks
+  double bank_weight = 8;                  ///< of the decoding of a bank of RAM
   std::int64_t shift_register_words = 32;  ///< that a LUT holds of one bit; 0: LUTs are none
   std::int64_t multiplier_a_bits = 24;     ///< unsigned operands of one DSP
   std::int64_t multiplier_b_bits = 17;

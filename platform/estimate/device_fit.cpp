@@ -17,7 +17,7 @@ std::vector<DeviceShare> device_shares(const Resources& total, const DeviceFile&
     if (available > 0) shares.push_back({resource, name, taken, available});
   };
   add("lut", "LUT", total.luts(), has.luts);
-  add("lut_memory", "LUT as memory", total.memory_luts, has.memory_luts);
+  add("lut_memory", "LUT as memory", total.memory_luts(), has.memory_luts);
   add("ff", "FF", total.registers, has.registers);
   add("block_ram", device.block_ram_unit, total.block_rams, has.block_rams);
   add("dsp", "DSP", total.dsps, has.dsps);

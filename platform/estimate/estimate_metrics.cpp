@@ -25,7 +25,8 @@ std::string group_name(const std::string& device) {
 
 void add_cells(const MetricWriter& out, const std::string& path, const Resources& cells) {
   out.add(path + "/lut", cells.luts());
-  out.add(path + "/lut_memory", cells.memory_luts);
+  out.add(path + "/lut_ram", cells.ram_luts);
+  out.add(path + "/srl", cells.shift_luts);
   out.add(path + "/ff", cells.registers);
   out.add(path + "/block_ram", cells.block_rams);
   out.add(path + "/dsp", cells.dsps);
@@ -33,8 +34,9 @@ void add_cells(const MetricWriter& out, const std::string& path, const Resources
 
 std::vector<MetricInfo> rows_of(const std::string& path, const std::string& whose) {
   return {
-      {path + "/lut", "LUTs", "LUTs of " + whose + ", those that are memory among them.", ""},
-      {path + "/lut_memory", "LUTs", "LUTs of " + whose + " that are memory or shift registers.", ""},
+      {path + "/lut", "LUTs", "LUTs of " + whose + ", those that are RAM or shift registers among them.", ""},
+      {path + "/lut_ram", "LUTs", "LUTs of " + whose + " that are RAM.", ""},
+      {path + "/srl", "LUTs", "LUTs of " + whose + " that are shift registers.", ""},
       {path + "/ff", "FFs", "Flip-flops of " + whose + ".", ""},
       {path + "/block_ram", "blocks", "Block RAMs of " + whose + ", in the unit of resources/block_ram_unit.",
        ""},
@@ -56,7 +58,8 @@ const MetricTable& estimate_table() {
          "Share of the LUTs in parts whose circuit was held against what a synthesiser makes of it.", ""},
         {"devices/<device>/fits", "", "Whether no kind of cell is taken beyond what the device has.", ""},
         {"devices/<device>/lut", "%", "Share of the device's LUTs.", ""},
-        {"devices/<device>/lut_memory", "%", "Share of the device's LUTs that can be memory.", ""},
+        {"devices/<device>/lut_memory", "%", "Share of the device's LUTs that can be RAM or shift registers.",
+         ""},
         {"devices/<device>/ff", "%", "Share of the device's flip-flops.", ""},
         {"devices/<device>/block_ram", "%", "Share of the device's block RAMs.", ""},
         {"devices/<device>/dsp", "%", "Share of the device's DSP blocks.", ""},

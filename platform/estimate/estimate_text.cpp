@@ -15,8 +15,9 @@ constexpr const char* kUncalibrated = "*";
 constexpr std::int64_t kWorthSaying = 300;  // LUTs that another kind of FIFO saves
 
 std::string line(const std::string& name, const Resources& cells, const std::string& behind) {
-  return fmt::format("{:<30} {:>8} {:>8} {:>8} {:>8} {:>5}{}{}\n", name, cells.luts(), cells.memory_luts,
-                     cells.registers, cells.block_rams, cells.dsps, behind.empty() ? "" : "  ", behind);
+  return fmt::format("{:<30} {:>8} {:>8} {:>8} {:>8} {:>8} {:>5}{}{}\n", name, cells.luts(), cells.ram_luts,
+                     cells.shift_luts, cells.registers, cells.block_rams, cells.dsps,
+                     behind.empty() ? "" : "  ", behind);
 }
 
 std::string short_by(const DeviceShare& share) {
@@ -35,8 +36,8 @@ std::string lacks(const std::vector<DeviceShare>& shares) {
 }  // namespace
 
 std::string estimate_as_text(const ResourceEstimate& estimate, const DeviceFile& device) {
-  std::string text = fmt::format("{:<30} {:>8} {:>8} {:>8} {:>8} {:>5}\n", device.family, "LUT", "as RAM",
-                                 "FF", device.block_ram_unit, "DSP");
+  std::string text = fmt::format("{:<30} {:>8} {:>8} {:>8} {:>8} {:>8} {:>5}\n", device.family, "LUT",
+                                 "LUT RAM", "SRL", "FF", device.block_ram_unit, "DSP");
   const PartEstimate* before = nullptr;
   for (const PartEstimate& part : estimate.parts) {
     if (before == nullptr || before->kind != part.kind)
@@ -74,7 +75,7 @@ std::string device_as_line(const ResourceEstimate& estimate, const DeviceFile& d
 std::string deep_fifos_as_text(const ResourceEstimate& estimate, const DeviceFile& device) {
   std::string text;
   for (const PartEstimate& part : estimate.parts) {
-    if (part.kind != PartEstimate::Kind::kFifo || part.resources.memory_luts < kWorthSaying) continue;
+    if (part.kind != PartEstimate::Kind::kFifo || part.resources.ram_luts < kWorthSaying) continue;
     FifoCircuit other = part.fifo;
     other.kind = FifoKind::kBlockRam;
     const Resources made = fifo_circuit(other, device).all();

@@ -31,8 +31,8 @@ LineMemory line_memory(const MatchingCircuit& c, std::int64_t pixels, const Devi
 Resources horizontal_path(const MatchingCircuit& c, const DeviceFile& device) {
   const std::int64_t group = std::int64_t{c.parallelism} * c.path_bits;
   Resources made = map_delay(c.iterations, group, device);
-  made.registers += c.path_bits;                      // the minimum
-  if (made.memory_luts > 0) made.registers += group;  // the predecessor's, behind the shift register
+  made.registers += c.path_bits;                     // the minimum
+  if (made.shift_luts > 0) made.registers += group;  // the predecessor's, behind the shift register
   return made;
 }
 

@@ -24,7 +24,7 @@ struct Choice {
 };
 
 double multiplexer_weight(std::int64_t banks, std::int64_t bits, const DeviceFile& device) {
-  return device.multiplexer_weight * static_cast<double>((power_of_two(banks) - 1) * bits);
+  return device.multiplexer_weight * static_cast<double>((banks - 1) * bits);
 }
 
 std::int64_t multiplexer_luts(std::int64_t banks, std::int64_t bits, const DeviceFile& device) {
@@ -40,7 +40,7 @@ void consider(const MemoryShape& memory, const RamKind& kind, MemoryMapping::Kin
     const double width = static_cast<double>(memory.bits) / static_cast<double>(shape.bits);
     const double weight =
         static_cast<double>(banks) * (static_cast<double>(beside) * kind.weight + width * kind.width_weight) +
-        multiplexer_weight(banks, memory.bits, device);
+        multiplexer_weight(banks, memory.bits, device) + device.bank_weight * static_cast<double>(banks);
     if (weight >= best.weight) continue;
     Resources made;
     made.logic_luts = multiplexer_luts(banks, memory.bits, device);
@@ -49,7 +49,7 @@ void consider(const MemoryShape& memory, const RamKind& kind, MemoryMapping::Kin
       made.block_rams = units;
       if (memory.may_collide) made.registers = device.collision_registers * memory.bits;
     } else {
-      made.memory_luts = units;
+      made.ram_luts = units;
       if (memory.read == MemoryShape::Read::kRegistered) made.registers = memory.bits;
     }
     best = {weight, {as, made}};
@@ -80,7 +80,7 @@ Resources map_delay(std::int64_t steps, std::int64_t bits, const DeviceFile& dev
   if (steps < kLeastShift || device.shift_register_words == 0) {
     made.registers = steps * bits;
   } else {
-    made.memory_luts = whole(steps, device.shift_register_words) * bits;
+    made.shift_luts = whole(steps, device.shift_register_words) * bits;
   }
   return made;
 }

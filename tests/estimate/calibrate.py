@@ -24,13 +24,14 @@ RECORD = os.path.join(HERE, "synthesised_cells.json")
 PAGE = os.path.join(ROOT, "platform", "doc", "estimates.md")
 BEGIN, END = "<!-- calibration: begin -->\n", "<!-- calibration: end -->\n"
 SYNTHESIS = {"7-series": "synth_xilinx -noiopad -noclkbuf", "ecp5": "synth_ecp5 -nowidelut"}
-# What a cell takes of the device: LUTs of logic, LUTs of memory, flip-flops, block RAMs, DSPs.
+# What a cell takes of the device: LUTs of logic, of RAM, of shift registers, flip-flops, block RAMs, DSPs.
 CELLS = {
     "7-series": [
         (r"LUT[1-6]|INV", "luts", 1),
-        (r"RAM(32|64)M|RAM128X1D|RAM256X1S", "memory_luts", 4),
-        (r"RAM(32|64)X1D|RAM128X1S", "memory_luts", 2),
-        (r"RAM(32|64)X1S|SRL\w+", "memory_luts", 1),
+        (r"RAM(32|64)M|RAM128X1D|RAM256X1S", "ram_luts", 4),
+        (r"RAM(32|64)X1D|RAM128X1S", "ram_luts", 2),
+        (r"RAM(32|64)X1S", "ram_luts", 1),
+        (r"SRL\w+", "shift_luts", 1),
         (r"FD[A-Z]+", "registers", 1),
         (r"RAMB18E1", "block_rams", 1),
         (r"RAMB36E1", "block_rams", 2),
@@ -39,7 +40,7 @@ CELLS = {
     "ecp5": [
         (r"LUT4", "luts", 1),
         (r"CCU2C", "luts", 2),
-        (r"TRELLIS_DPR16X4", "memory_luts", 6),
+        (r"TRELLIS_DPR16X4", "ram_luts", 6),
         (r"TRELLIS_FF", "registers", 1),
         (r"DP16KD|PDPW16KD", "block_rams", 1),
         (r"MULT18X18D", "dsps", 1),
@@ -70,7 +71,7 @@ def synthesise(family, circuit, parameters):
 
 
 def counted(family, cells):
-    numbers = dict.fromkeys(("luts", "memory_luts", "registers", "block_rams", "dsps"), 0)
+    numbers = dict.fromkeys(("luts", "ram_luts", "shift_luts", "registers", "block_rams", "dsps"), 0)
     for kind, number in cells.items():
         for pattern, resource, units in CELLS[family]:
             if re.fullmatch(pattern, kind):

@@ -50,8 +50,7 @@ TEST(Estimate, TheTotalIsTheSumOfTheParts) {
   add_resources(tree, all, zynq());
   EXPECT_EQ(tree.count("resources/block_ram"), all.total.block_rams);
   EXPECT_EQ(tree.count("resources/stage/matching/lut"), part(all, "matching")->resources.luts());
-  EXPECT_EQ(tree.count("resources/fifo/left_output/lut_memory"),
-            part(all, "left_output")->resources.memory_luts);
+  EXPECT_EQ(tree.count("resources/fifo/left_output/lut_ram"), part(all, "left_output")->resources.ram_luts);
 }
 
 TEST(Estimate, MoreOfAThingTakesMore) {
@@ -60,7 +59,7 @@ TEST(Estimate, MoreOfAThingTakesMore) {
   EXPECT_GT(total({"matching.iterations=8"}).block_rams, usual.block_rams);
   EXPECT_GT(total({"tiles.limit=2048"}).block_rams, usual.block_rams);
   EXPECT_GT(total({"rectification.window=127"}).block_rams, usual.block_rams);
-  EXPECT_GT(total({"streams.default_depth=64"}).memory_luts, usual.memory_luts);
+  EXPECT_GT(total({"streams.default_depth=64"}).ram_luts, usual.ram_luts);
   EXPECT_GT(total({"dma.left.fifo_bytes=65536"}).block_rams, usual.block_rams);
   EXPECT_GT(total({"matching.parallel_rows=4", "pipeline.pixels_per_token=4"}).luts(), usual.luts());
   EXPECT_GT(total({"matching.paths=\"w,nw,n,ne,e,sw,s,se\""}).block_rams, usual.block_rams);

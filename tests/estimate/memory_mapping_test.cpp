@@ -47,7 +47,7 @@ TEST(MemoryMapping, IsWhatASynthesiserMakes) {
   for (const Case& c : cases) {
     const MemoryMapping mapping = map_memory({c.words, c.bits, c.read}, device);
     EXPECT_EQ(mapping.kind, c.kind) << c.words << " x " << c.bits;
-    EXPECT_EQ(mapping.resources.block_rams + mapping.resources.memory_luts, c.units)
+    EXPECT_EQ(mapping.resources.block_rams + mapping.resources.ram_luts, c.units)
         << c.words << " x " << c.bits;
   }
 }
@@ -82,8 +82,8 @@ TEST(MemoryMapping, AnM10kIsTenKilobits) {
 
 TEST(MemoryMapping, DelaysAreShiftRegistersWhereThereAreAny) {
   EXPECT_EQ(map_delay(2, 8, family()).registers, 16);
-  EXPECT_EQ(map_delay(32, 8, family()).memory_luts, 8);
-  EXPECT_EQ(map_delay(33, 8, family()).memory_luts, 16);
+  EXPECT_EQ(map_delay(32, 8, family()).shift_luts, 8);
+  EXPECT_EQ(map_delay(33, 8, family()).shift_luts, 16);
   EXPECT_EQ(map_delay(32, 8, family("ecp5")).registers, 256);
 }
 

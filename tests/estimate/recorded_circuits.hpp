@@ -39,12 +39,12 @@ inline std::vector<RecordedCircuit> recorded_circuits() {
   std::vector<RecordedCircuit> all;
   const auto record = nlohmann::json::parse(read_text(source_path("tests/estimate/synthesised_cells.json")));
   for (const auto& row : record) {
-    all.push_back(
-        {row.at("family"),
-         row.at("circuit"),
-         row.at("parameters").get<std::map<std::string, int>>(),
-         row.at("use"),
-         {row.at("luts"), row.at("memory_luts"), row.at("registers"), row.at("block_rams"), row.at("dsps")}});
+    all.push_back({row.at("family"),
+                   row.at("circuit"),
+                   row.at("parameters").get<std::map<std::string, int>>(),
+                   row.at("use"),
+                   {row.at("luts"), row.at("ram_luts"), row.at("shift_luts"), row.at("registers"),
+                    row.at("block_rams"), row.at("dsps")}});
   }
   return all;
 }
