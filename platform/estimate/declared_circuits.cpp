@@ -96,7 +96,7 @@ CircuitEstimate texture_circuit(const StageCircuit& stage, const TextureConfig& 
 
 CircuitEstimate speckle_circuit(const StageCircuit& stage, const SpeckleConfig& config,
                                 const DeviceFile& device) {
-  constexpr std::int64_t d = kDisparityWireBits;
+  const std::int64_t d = kDisparityWireBits;
   const std::int64_t w = config.window;
   const std::int64_t n = stage.at_once;
   CircuitEstimate made;
@@ -117,7 +117,7 @@ CircuitEstimate speckle_circuit(const StageCircuit& stage, const SpeckleConfig& 
 
 CircuitEstimate gap_interpolation_circuit(const StageCircuit& stage, const GapInterpolationConfig& config,
                                           const DeviceFile& device) {
-  constexpr std::int64_t d = kDisparityWireBits;
+  const std::int64_t d = kDisparityWireBits;
   const std::int64_t n = stage.at_once;
   const std::int64_t place = bits_of(config.l_max + 2);
   const std::int64_t marked = d + 1;  // with a bit for the masked border

@@ -112,7 +112,7 @@ CircuitEstimate mean_circuit(const NoiseReductionCircuit& circuit, const DeviceF
 CircuitEstimate median_circuit(const StageCircuit& stage, const DeviceFile& device) {
   constexpr std::int64_t kWindow = 9 * kDisparityWireBits;
   constexpr std::int64_t kColumns = 6 * kDisparityWireBits;
-  constexpr std::int64_t d = kDisparityWireBits;
+  const std::int64_t d = kDisparityWireBits;
   const std::int64_t n = stage.at_once;
   CircuitEstimate made;
   made.logic.registers = 2 * kColumns + bits_of(stage.width) + control_registers(stage, stage.width + 1) +

@@ -133,7 +133,7 @@ TEST(Calibration, ThePageHasThisTable) {
   EXPECT_NE(page.find(table()), std::string::npos) << "run: tests/estimate/calibrate.py fit BUILD";
 }
 
-TEST(Calibration, TheRecordComesOutAgain_large) {
+TEST(Calibration, LargeRecordComesOutAgain) {
   if (std::system("yosys -V > /dev/null 2>&1") != 0) GTEST_SKIP() << "no yosys";
   const std::string script = source_path("tests/estimate/calibrate.py");
   EXPECT_EQ(std::system((script + " check ecp5 fifo_block_ram DEPTH=16 WIDTH=8").c_str()), 0);
