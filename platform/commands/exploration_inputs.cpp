@@ -9,13 +9,17 @@
 #include "platform/commands/timed_run.hpp"
 #include "platform/config/configuration_hash.hpp"
 #include "platform/config/preset.hpp"
+#include "platform/estimate/estimate.hpp"
+#include "platform/estimate/estimate_metrics.hpp"
 #include "platform/input/quoted_text.hpp"
 #include "platform/input/run_input.hpp"
 #include "platform/results/file_content.hpp"
+#include "platform/results/glossary.hpp"
 
 namespace parallax {
 namespace {
 
+constexpr const char* kUsualFamily = "7-series";
 // Of each a map is kept, some megabytes.
 constexpr std::size_t kInputsKept = 4;
 
@@ -48,7 +52,28 @@ std::string contents(const RunOptions& options) {
   return text;
 }
 
+// All that a device's file and those that it inherits from say.
+std::string device_text(DeviceFile device) {
+  Schema schema;
+  describe(schema, device);
+  FileContent content;
+  for (const EffectiveKey& key : effective_keys(schema)) {
+    const std::string line = fmt::format("{}.{}={}\n", key.section, key.name, to_toml(key.value));
+    content.add(line.data(), line.size());
+  }
+  return fmt::format("{} {:08x}", device.name, content.crc);
+}
+
 }  // namespace
+
+std::optional<DeviceFile> ExplorationInputs::device_of(const ExplorationSpec& spec) {
+  const std::vector<std::string> metrics = spec.named_metrics();
+  const bool asked = std::any_of(metrics.begin(), metrics.end(), [](const std::string& name) {
+    return find_estimate_metric(name) != nullptr;
+  });
+  if (!spec.device.empty()) return load_device(spec.device, preset_folders());
+  return asked ? std::optional(load_family(kUsualFamily, preset_folders())) : std::nullopt;
+}
 
 std::vector<RunWord> ExplorationInputs::words(const ExplorationPoint& point) const {
   std::vector<RunWord> all = spec_.run;
@@ -110,6 +135,7 @@ PointIdentity ExplorationInputs::identify(const ExplorationPoint& point) {
       identity.input += (identity.input.empty() ? "" : " ") + shell_word(text);
   }
   identity.input += input.content;
+  if (device_) identity.input += " on " + device_text(*device_);
   identity.command = command(point);
   identity.seed = input.options.scene.seed;
   return identity;
@@ -120,6 +146,12 @@ EvaluationCase ExplorationInputs::prepare(const ExplorationPoint& point, const N
   EvaluationCase one{configuration(input.options, point), {}};
   one.input = input.inputs.prepare(one.configuration.machine, notice);
   one.input.command = command(point);
+  if (device_) {
+    const ResourceEstimate resources =
+        estimate(one.configuration.machine, *device_, {one.input.width, one.input.height});
+    add_resources(one.further, resources, *device_);
+    if (!spec_.device.empty()) add_device(one.further, resources, *device_);
+  }
   return one;
 }
 

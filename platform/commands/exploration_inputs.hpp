@@ -3,10 +3,12 @@
 
 #include <deque>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "platform/estimate/device_file.hpp"
 #include "platform/evaluation/evaluation_inputs.hpp"
 #include "platform/explore/explorer.hpp"
 
@@ -16,9 +18,9 @@ namespace parallax {
 /// options, of which the last few are kept.
 class ExplorationInputs {
  public:
-  /// `spec` must outlive this object; `names` are those of its PointSource.
+  /// `spec` must outlive this object; `names` are those of its PointSource. Throws UserError: no such device.
   ExplorationInputs(const ExplorationSpec& spec, std::vector<std::string> names)
-      : spec_(spec), names_(std::move(names)) {}
+      : spec_(spec), names_(std::move(names)), device_(device_of(spec)) {}
 
   /// Throws UserError where a point is no possible machine.
   PointIdentity identify(const ExplorationPoint& point);
@@ -39,6 +41,7 @@ class ExplorationInputs {
     std::string content{};  // of the files that it names
   };
 
+  static std::optional<DeviceFile> device_of(const ExplorationSpec& spec);
   Opened& opened(const ExplorationPoint& point);
   RunOptions options(const ExplorationPoint& point) const;
   Configuration configuration(const RunOptions& options, const ExplorationPoint& point) const;
@@ -46,6 +49,7 @@ class ExplorationInputs {
 
   const ExplorationSpec& spec_;
   const std::vector<std::string> names_;
+  const std::optional<DeviceFile> device_;  // whose resources are asked for
   std::deque<std::unique_ptr<Opened>> opened_;
 };
 

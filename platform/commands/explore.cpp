@@ -39,6 +39,7 @@ constexpr const char* kFront = "front.csv";
 // A number that no run has would be missing at every point.
 const MetricInfo& require_metric(const std::string& name, const std::string& where) {
   if (const MetricInfo* metric = find_run_metric(name)) return *metric;
+  if (const MetricInfo* metric = find_estimate_metric(name)) return *metric;
   throw UserError(fmt::format(
       "{}: {} is neither varied nor a number of a run; the nearest of these is {} (parallax glossary)", where,
       excerpt(name), nearest_key(name, run_metric_names())));

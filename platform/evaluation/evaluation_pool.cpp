@@ -55,6 +55,10 @@ std::string answer(const EvaluationPool::Preparation& prepare, const std::string
     const Variant variant{tree.at("assignments").get<std::vector<std::string>>(), tree.at("base")};
     const EvaluationCase one = prepare(variant, [&notes](const std::string& line) { notes.push_back(line); });
     result = evaluate(one.configuration.machine, one.input);
+    if (result.done()) {
+      std::vector<MetricGroup>& groups = result.metrics.groups;
+      groups.insert(groups.end(), one.further.groups.begin(), one.further.groups.end());
+    }
     result.configuration = to_json(one.configuration, false);
   } catch (const UserError& error) {
     result = not_measured(Status::kInvalid, error.what());

@@ -24,6 +24,7 @@ struct Variant {
 struct EvaluationCase {
   Configuration configuration;
   EvaluationInput input;
+  MetricGroup further{};  ///< what is known of it beside its time: groups that go into the result's metrics
 };
 
 /// Processes that evaluate variants of machines, as many at a time as this computer has processors for. They

@@ -58,13 +58,15 @@ class Reader {
     const char* name;
     void (Reader::*read)(const TomlPart& part);
   };
-  static const std::array<Part, 10> kParts;
+  static const std::array<Part, 11> kParts;
 
   [[noreturn]] void fail(const toml::node& node, const std::string& why) const {
     throw UserError(fmt::format("{}: {}", toml_origin(file_, node), why));
   }
 
   void read_description(const TomlPart& part) { spec_.description = part.text(); }
+
+  void read_device(const TomlPart& part) { spec_.device = part.text(); }
 
   void read_run(const TomlPart& part) {
     for (const TomlPart& entry : part.entries()) {
@@ -198,7 +200,8 @@ class Reader {
   ExplorationSpec spec_;
 };
 
-const std::array<Reader::Part, 10> Reader::kParts{{{"description", &Reader::read_description},
+const std::array<Reader::Part, 11> Reader::kParts{{{"description", &Reader::read_description},
+                                                   {"device", &Reader::read_device},
                                                    {"run", &Reader::read_run},
                                                    {"set", &Reader::read_set},
                                                    {"vary", &Reader::read_vary},

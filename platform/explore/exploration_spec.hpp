@@ -62,6 +62,7 @@ struct Objective {
 struct ExplorationSpec {
   std::string text;  ///< of the file
   std::string description;
+  std::string device;                    ///< whose resources are estimated; empty: of the usual family
   std::vector<RunWord> run;              ///< of every point
   std::vector<std::string> assignments;  ///< "key=value", of every point
   std::vector<Axis> axes;
@@ -79,8 +80,9 @@ struct ExplorationSpec {
 };
 
 /// Reads a TOML file: [run], [set], [vary], [link], [sampling], [constraints], [objectives], `conditions`,
-/// `metrics` and `description`. Throws UserError with file and line: unreadable, malformed, unknown or wrong
-/// parts, names of keys and options that do not exist. Whether values are in range shows at their points.
+/// `metrics`, `device` and `description`. Throws UserError with file and line: unreadable, malformed, unknown
+/// or wrong parts, names of keys and options that do not exist. Whether values are in range shows at their
+/// points.
 ExplorationSpec read_exploration_spec(const std::filesystem::path& file,
                                       const std::vector<std::string>& run_options);
 

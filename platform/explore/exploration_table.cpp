@@ -93,8 +93,9 @@ std::string ExplorationTable::text(const std::set<std::size_t>& points, std::siz
       const auto found = point.result.metrics.find(metric);
       const auto* const number =
           found == point.result.metrics.end() ? nullptr : std::get_if<double>(&found->second);
-      row.push_back(number == nullptr ? field_of(point.result, metric)
-                                      : quantity_text(*number, store_.unit(metric)));
+      const std::string unit = store_.unit(metric);
+      row.push_back(number == nullptr || unit.empty() ? field_of(point.result, metric)
+                                                      : quantity_text(*number, unit));
     }
     row.push_back(point.result.limit);
     rows.push_back(std::move(row));

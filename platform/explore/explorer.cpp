@@ -32,6 +32,7 @@ std::string identity_of(const PointIdentity& point) {
 StoredValue stored(const Metric* metric) {
   if (metric == nullptr) return {};
   if (metric->is_number()) return metric->number();
+  if (const auto* truth = std::get_if<bool>(&metric->value)) return *truth ? 1.0 : 0.0;
   if (const auto* word = std::get_if<std::string>(&metric->value)) return *word;
   return {};
 }

@@ -115,6 +115,15 @@ bool matches(std::string_view path, std::string_view row) {
          name.find('/') == std::string_view::npos;
 }
 
+const MetricInfo* find_in(const std::vector<const MetricTable*>& tables, std::string_view path) {
+  for (const MetricTable* table : tables) {
+    for (const MetricInfo& row : table->rows()) {
+      if (matches(path, row.path)) return &row;
+    }
+  }
+  return nullptr;
+}
+
 }  // namespace
 
 std::string glossary_as_text() {
@@ -171,14 +180,9 @@ nlohmann::ordered_json glossary_as_json() {
   return {{"metrics", std::move(metrics)}, {"names", std::move(names_in_brackets)}};
 }
 
-const MetricInfo* find_run_metric(std::string_view path) {
-  for (const MetricTable* table : sections().front().tables) {
-    for (const MetricInfo& row : table->rows()) {
-      if (matches(path, row.path)) return &row;
-    }
-  }
-  return nullptr;
-}
+const MetricInfo* find_run_metric(std::string_view path) { return find_in(sections().front().tables, path); }
+
+const MetricInfo* find_estimate_metric(std::string_view path) { return find_in({&estimate_table()}, path); }
 
 std::vector<std::string> run_metric_names() {
   std::vector<std::string> names;

@@ -20,5 +20,7 @@ nlohmann::ordered_json glossary_as_json();
 const MetricInfo* find_run_metric(std::string_view path);
 /// The names of these, with angle brackets.
 std::vector<std::string> run_metric_names();
+/// The entry of a number of an estimate, "resources/lut"; null if there is none of that name.
+const MetricInfo* find_estimate_metric(std::string_view path);
 
 }  // namespace parallax
