@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "platform/estimate/declared_circuits.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "platform/estimate/circuit_parts.hpp"
@@ -150,10 +151,12 @@ CircuitEstimate stored_bits_circuit(const std::string& name, const StageCircuit&
 
 CircuitEstimate burst_circuit(const DmaPortConfig& port, std::int64_t token_bits, const DeviceFile& device) {
   const std::int64_t words = std::int64_t{port.burst_bytes} * 8 / port.data_bits;
+  // Of a token longer than a word, words go to their places; what is shifted is a word.
+  const std::int64_t shifted = port.data_bits + std::min<std::int64_t>(token_bits, port.data_bits);
   const std::int64_t window = port.data_bits + token_bits;
   CircuitEstimate made;
   Logic logic(device.costs);
-  logic.choices(bits_of(window), window).adders(1, bits_of(window) + bits_of(words));
+  logic.choices(bits_of(shifted), shifted).adders(1, bits_of(window) + bits_of(words));
   made.logic.logic_luts = std::llround(logic.luts());
   made.logic.registers = window + bits_of(window) + bits_of(words + 1);
   made.memories.push_back(

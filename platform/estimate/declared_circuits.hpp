@@ -22,8 +22,8 @@ CircuitEstimate gap_interpolation_circuit(const StageCircuit& stage, const GapIn
 /// A filter of which its storage alone is known: as if it were lines.
 CircuitEstimate stored_bits_circuit(const std::string& name, const StageCircuit& stage, std::int64_t bits,
                                     const DeviceFile& device);
-/// Between bursts and tokens: a burst in a memory of the port's words, and a shifter of one word and one
-/// token.
+/// Between bursts and tokens: a burst in a memory of the port's words, and a shifter of a word and a token,
+/// or of two words.
 CircuitEstimate burst_circuit(const DmaPortConfig& port, std::int64_t token_bits, const DeviceFile& device);
 /// A DMA engine: its buffer, an address, a length, and a count of bursts under way.
 CircuitEstimate engine_circuit(const DmaPortConfig& port, const DeviceFile& device);

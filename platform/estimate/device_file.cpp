@@ -108,6 +108,9 @@ void describe(Schema& schema, DeviceFile& device) {
 
   schema.text("family.name", device.family, "The family.", origin);
   schema.text("family.block_ram", device.block_ram_unit, "Name of the smallest block RAM.", origin);
+  schema.boolean("family.calibrated", device.calibrated,
+                 "Whether the costs of circuits were fitted to what was synthesised for this family.",
+                 origin);
   schema.real("family.register_weight", device.register_weight, kWeight, "",
               "Weight of a bit of a memory that is made of registers, beside those of RAMs.", origin);
   schema.real("family.multiplexer_weight", device.multiplexer_weight, kWeight, "",

@@ -44,7 +44,9 @@ struct DeviceFile {
 
   std::string family = "7 series";
   std::string block_ram_unit = "RAMB18";
-  RamKind block_ram;                       ///< the family's unit
+  bool calibrated =
+      true;           ///< whether the costs were fitted to circuits that were synthesised for this family
+  RamKind block_ram;  ///< the family's unit
   RamKind double_block_ram;                ///< two of them together
   RamKind lut_ram;                         ///< read in the same cycle
   double register_weight = 1;              ///< of a bit in a register, beside the weights of RAM kinds

@@ -48,7 +48,7 @@ class Estimator {
   }
 
   void add_stage(const std::string& name, const CircuitEstimate& circuit, Basis basis) {
-    const bool calibrated = basis == Basis::kReference;
+    const bool calibrated = basis == Basis::kReference && device_.calibrated;
     result_.parts.push_back({Kind::kStage, name, "", "", {}, circuit.logic, calibrated});
     for (const CircuitMemory& memory : circuit.memories)
       result_.parts.push_back({Kind::kBuffer, memory.name, name, "", {}, memory.resources, calibrated});
@@ -210,7 +210,8 @@ void Estimator::add_streams() {
     const FifoOffsets delays = config_.streams.offsets(stream.name);
     const FifoCircuit fifo{config_.streams.kind(stream.name), stream.depth, stream.bits, delays.write_to_read,
                            delays.read_to_write};
-    const bool calibrated = fifo.kind != FifoKind::kAsynchronous && fifo.kind != FifoKind::kFree;
+    const bool calibrated =
+        device_.calibrated && fifo.kind != FifoKind::kAsynchronous && fifo.kind != FifoKind::kFree;
     result_.parts.push_back({Kind::kFifo, stream.name, "",
                              fmt::format("{} x {} bit, {}", stream.depth, stream.bits, name_of(fifo.kind)),
                              fifo, fifo_circuit(fifo, device_).all(), calibrated});

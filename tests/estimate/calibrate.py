@@ -23,7 +23,12 @@ ROOT = os.path.dirname(os.path.dirname(HERE))
 RECORD = os.path.join(HERE, "synthesised_cells.json")
 PAGE = os.path.join(ROOT, "platform", "doc", "estimates.md")
 BEGIN, END = "<!-- calibration: begin -->\n", "<!-- calibration: end -->\n"
-SYNTHESIS = {"7-series": "synth_xilinx -noiopad -noclkbuf", "ecp5": "synth_ecp5 -nowidelut"}
+SYNTHESIS = {
+    "7-series": "synth_xilinx -noiopad -noclkbuf",
+    "ultrascale-plus": "synth_xilinx -family xcup -noiopad -noclkbuf",
+    "ecp5": "synth_ecp5 -nowidelut",
+}
+FITTED = ("7-series", "ecp5")  # families with costs of their own
 # What a cell takes of the device: LUTs of logic, of RAM, of shift registers, flip-flops, block RAMs, DSPs.
 CELLS = {
     "7-series": [
@@ -36,6 +41,15 @@ CELLS = {
         (r"RAMB18E1", "block_rams", 1),
         (r"RAMB36E1", "block_rams", 2),
         (r"DSP48E1", "dsps", 1),
+    ],
+    "ultrascale-plus": [
+        (r"LUT[1-6]|INV", "luts", 1),
+        (r"RAM32M16|RAM64M8", "ram_luts", 8),
+        (r"SRL\w+", "shift_luts", 1),
+        (r"FD[A-Z]+", "registers", 1),
+        (r"RAMB18E2", "block_rams", 1),
+        (r"RAMB36E2", "block_rams", 2),
+        (r"DSP48E2", "dsps", 1),
     ],
     "ecp5": [
         (r"LUT4", "luts", 1),
@@ -95,7 +109,7 @@ def record(families):
     known = {(row["family"], row["circuit"], json.dumps(row["parameters"], sort_keys=True)): row for row in read_record()}
     rows = []
     for family in families or SYNTHESIS:
-        for circuit, parameters, use in cases.CASES:
+        for circuit, parameters, use in cases.of_family(family):
             key = (family, circuit, json.dumps(parameters, sort_keys=True))
             row = known.pop(key, None)
             if row is None:
@@ -170,7 +184,7 @@ def ask(build, what):
 
 def fit(build):
     features = json.loads(ask(build, "FEATURES"))
-    for family in SYNTHESIS:
+    for family in FITTED:
         rows = [row for row in features if row["family"] == family and row["use"] == cases.CALIBRATE]
         costs = least_squares([row["features"] for row in rows], [row["luts"] - row["known"] for row in rows])
         write_costs(family, costs, len(rows))

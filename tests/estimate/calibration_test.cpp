@@ -36,6 +36,10 @@ std::string percent(std::int64_t estimated, std::int64_t made) {
   return fmt::format("{:+.1f} %", 100.0 * static_cast<double>(estimated - made) / static_cast<double>(made));
 }
 
+const char* described(const std::string& use) {
+  return use == "held_out" ? "held out" : use == "calibrate" ? "fitted" : "not calibrated";
+}
+
 // Mean and largest error of the held-out circuits of a family, in percent.
 std::string summary(const std::string& name) {
   double sum_luts = 0, most_luts = 0, sum_registers = 0, most_registers = 0;
@@ -66,7 +70,7 @@ std::string table() {
   std::string text =
       "| family | held out | LUT, mean error | largest | FF, mean error | largest | block RAMs right |\n"
       "|---|---|---|---|---|---|---|\n" +
-      summary("7-series") + summary("ecp5") + "\n";
+      summary("7-series") + summary("ultrascale-plus") + summary("ecp5") + "\n";
   text +=
       "| family | circuit | parameters | | LUT made | estimated | error | FF made | estimated | error | "
       "block "
@@ -75,8 +79,8 @@ std::string table() {
   for (const RecordedCircuit& c : recorded_circuits()) {
     const Resources e = estimated(c, family(c.family));
     text += fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} |\n", c.family,
-                        c.circuit, c.text(), c.use == "held_out" ? "held out" : "fitted", c.cells.luts(),
-                        e.luts(), percent(e.luts(), c.cells.luts()), c.cells.registers, e.registers,
+                        c.circuit, c.text(), described(c.use), c.cells.luts(), e.luts(),
+                        percent(e.luts(), c.cells.luts()), c.cells.registers, e.registers,
                         percent(e.registers, c.cells.registers), c.cells.block_rams, e.block_rams,
                         c.cells.dsps, e.dsps);
   }
@@ -110,12 +114,12 @@ TEST(Calibration, WritesWhatIsAskedFor) {
 TEST(Calibration, HeldOutCircuitsAreWithinTwentyPercent) {
   int held_out = 0;
   for (const RecordedCircuit& c : recorded_circuits()) {
-    if (c.use != "held_out") continue;
-    ++held_out;
+    if (c.use == "calibrate") continue;
+    held_out += c.use == "held_out" ? 1 : 0;
     const Resources e = estimated(c, family(c.family));
     const std::string where = c.family + " " + c.circuit + " " + c.text();
     const std::int64_t few = c.circuit.rfind("fifo_", 0) == 0 ? kFewCells : 0;
-    EXPECT_TRUE(near(e.luts(), c.cells.luts(), few))
+    EXPECT_TRUE(c.use != "held_out" || near(e.luts(), c.cells.luts(), few))
         << where << ": LUT " << e.luts() << ", made " << c.cells.luts();
     EXPECT_TRUE(near(e.registers, c.cells.registers, few))
         << where << ": FF " << e.registers << ", made " << c.cells.registers;
@@ -125,7 +129,7 @@ TEST(Calibration, HeldOutCircuitsAreWithinTwentyPercent) {
         << where << ": LUT as memory " << e.memory_luts() << ", made " << c.cells.memory_luts();
     EXPECT_EQ(e.dsps, c.cells.dsps) << where;
   }
-  EXPECT_GE(held_out, 50);
+  EXPECT_GE(held_out, 58);
 }
 
 TEST(Calibration, ThePageHasThisTable) {

@@ -5,6 +5,7 @@ A case is (circuit, parameters, use). The parameters of the held-out ones occur 
 those that do.
 """
 CALIBRATE, HELD_OUT = "calibrate", "held_out"
+NOT_CALIBRATED = "not_calibrated"  # registers and memories are asked to meet it, LUTs are not
 
 
 def _case(circuit, use, **parameters):
@@ -69,3 +70,22 @@ CASES = [
     _case("matching", HELD_OUT, WIDTH=1024, P=8, ITERATIONS=16, CODE_BITS=34),
     _case("matching", HELD_OUT, WIDTH=1024, P=64, ITERATIONS=2),
 ]
+
+# With the costs of the 7 series.
+_ULTRASCALE_PLUS = [
+    _case("census", HELD_OUT, WIDTH=1024, WINDOW_WIDTH=5, WINDOW_HEIGHT=5),
+    _case("rectification", HELD_OUT, WIDTH=1024, WINDOW=79, OFFSET_BITS=12),
+    _case("subpixel", HELD_OUT, WIDTH=1024, P=32, ITERATIONS=8),
+    _case("uniqueness", HELD_OUT, WIDTH=1024, P=32, ITERATIONS=8),
+    _case("noise_reduction", HELD_OUT, WIDTH=1024, WINDOW=5),
+    _case("median_3x3", HELD_OUT, WIDTH=1024),
+    _case("fifo_registered", HELD_OUT, DEPTH=16, WIDTH=352),
+    _case("fifo_block_ram", HELD_OUT, DEPTH=512, WIDTH=24),
+    _case("matching", NOT_CALIBRATED, WIDTH=1024, P=8, ITERATIONS=8),
+    _case("matching", NOT_CALIBRATED, WIDTH=512, P=16, ITERATIONS=4),
+]
+
+
+def of_family(family):
+    """UltraScale+ has no costs of its own to be fitted."""
+    return _ULTRASCALE_PLUS if family == "ultrascale-plus" else CASES

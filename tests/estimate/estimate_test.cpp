@@ -94,6 +94,14 @@ TEST(Estimate, OnlyTheReferenceCircuitsAreCalibrated) {
   EXPECT_FALSE(part(estimate(machine({"pipeline.pixels_per_token=2"}), zynq()), "census")->calibrated);
 }
 
+TEST(Estimate, NothingIsCalibratedInAFamilyWithTheCostsOfAnother) {
+  const DeviceFile device = load_device("cyclone-v-a6", {source_path("platform/presets")});
+  const ResourceEstimate all = estimate(machine(), device);
+  MetricGroup tree;
+  add_resources(tree, all, device);
+  EXPECT_EQ(tree.number("resources/calibrated"), 0);
+}
+
 TEST(Estimate, AFilterOfTheUsersOwnCountsItsStorage) {
   MachineConfig config = machine();
   config.add(filter<FillFromLeft, FillFromLeftConfig>("fill_from_left"));
