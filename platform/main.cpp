@@ -4,21 +4,12 @@
 
 #include <cerrno>
 #include <cstdlib>
-#include <iostream>
 #include <systemc>
 
 #include "platform/commands/cli.hpp"
+#include "platform/commands/report_handler.hpp"
 
 namespace {
-
-// Standard output belongs to results: the kernel's own handler would print warnings there. What it would
-// abort for is thrown like other faults, so that the program ends with one line.
-void handle_report(const sc_core::sc_report& report, const sc_core::sc_actions& actions) {
-  if ((actions & sc_core::SC_DISPLAY) != 0) {
-    std::cerr << "parallax: warning: " << report.get_msg_type() << ": " << report.get_msg() << std::endl;
-  }
-  if ((actions & (sc_core::SC_THROW | sc_core::SC_ABORT)) != 0) throw report;
-}
 
 // Whoever starts the program may have closed these: the next file that is opened would be one of them, and
 // take what is meant for a terminal.
@@ -34,9 +25,7 @@ void open_standard_descriptors() {
 }  // namespace
 
 int sc_main(int argc, char** argv) {
-  sc_core::sc_report_handler::set_handler(handle_report);
-  sc_core::sc_report_handler::set_actions(sc_core::SC_INFO, sc_core::SC_DO_NOTHING);
-  sc_core::sc_report_handler::set_actions(sc_core::SC_FATAL, sc_core::SC_THROW);
+  parallax::handle_reports();
   return parallax::run_command_line(argc, argv);
 }
 

@@ -26,6 +26,7 @@
 #include "platform/commands/glossary_command.hpp"
 #include "platform/commands/map_command.hpp"
 #include "platform/commands/memory_command.hpp"
+#include "platform/commands/parse_line.hpp"
 #include "platform/commands/registers_command.hpp"
 #include "platform/commands/report_command.hpp"
 #include "platform/commands/run_command.hpp"
@@ -33,45 +34,11 @@
 #include "platform/commands/stage_command.hpp"
 #include "platform/commands/validate_command.hpp"
 #include "platform/commands/vectors_command.hpp"
-#include "platform/config/nearest_name.hpp"
 #include "platform/results/version.hpp"
 #include "tlm/error.hpp"
 
 namespace parallax {
 namespace {
-
-/// What could have been written where `word` stands: the options, or the commands.
-std::vector<std::string> alternatives(const CLI::App& app, const std::string& word) {
-  std::vector<std::string> names;
-  if (word.rfind('-', 0) != 0) {
-    for (const CLI::App* command : app.get_subcommands(nullptr)) names.push_back(command->get_name());
-    return names;
-  }
-  const auto add_options = [&names](const CLI::App& owner) {
-    for (const CLI::Option* option : owner.get_options()) {
-      for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
-    }
-  };
-  for (const CLI::App* command : app.get_subcommands()) add_options(*command);
-  add_options(app);
-  return names;
-}
-
-/// The words that no option and no command took.
-std::string unexpected(const CLI::App& app, const std::string& argument) {
-  const std::string word = argument.substr(0, argument.find('='));
-  const bool is_option = word.rfind('-', 0) == 0;
-  if (!is_option && !app.get_subcommands().empty())
-    return fmt::format("unexpected argument '{}'", excerpt(argument));
-  return fmt::format("unknown {} {}; the nearest is {}", is_option ? "option" : "command", excerpt(word),
-                     nearest_name(word, alternatives(app, word)));
-}
-
-// Whatever the message holds, it is one line that a terminal shows.
-std::string one_line(const std::string& text) {
-  constexpr std::size_t kLongest = 2000;
-  return excerpt(text, kLongest);
-}
 
 int fail(std::ostream& err, const std::string& line) {
   err << "parallax: error: " << one_line(line) << '\n';
@@ -84,25 +51,12 @@ int fail_internally(std::ostream& err, const std::string& line) {
   return kInternalError;
 }
 
-// A message of CLI11 quotes what it could not read, however long that is, and some quote all that is allowed.
-constexpr std::size_t kLongestParseError = 300;
-
-/// Throws UserError with one line, or returns true when help or version was asked for and printed.
-bool parse(CLI::App& app, int argc, const char* const* argv, std::ostream& out) {
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::Success& request) {
-    app.exit(request, out, out);
-    return true;
-  } catch (const CLI::ExtrasError&) {
-    throw UserError(unexpected(app, app.remaining(true).front()));
-  } catch (const CLI::ParseError& error) {
-    throw UserError(excerpt(error.what(), kLongestParseError));
-  }
-  return false;
-}
-
 }  // namespace
+
+std::string one_line(const std::string& text) {
+  constexpr std::size_t kLongest = 2000;
+  return excerpt(text, kLongest);
+}
 
 void add_commands(CLI::App& app, CommandContext& context) {
   add_run_command(app, context);
@@ -147,7 +101,7 @@ int run_command_line(int argc, const char* const* argv, std::ostream& out, std::
   add_commands(app, context);
 
   try {
-    if (parse(app, argc, argv, out)) {
+    if (parse_line(app, argc, argv, out)) {
       if (!out.flush()) throw UserError("cannot write to standard output");
       return 0;
     }

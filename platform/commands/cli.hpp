@@ -2,6 +2,7 @@
 #pragma once
 
 #include <iosfwd>
+#include <string>
 
 namespace CLI {
 class App;
@@ -13,6 +14,9 @@ struct CommandContext;
 
 /// All commands with their options.
 void add_commands(CLI::App& app, CommandContext& context);
+
+/// Whatever a message holds, one line that a terminal shows, and that is not endless.
+std::string one_line(const std::string& text);
 
 /// The command line. Returns the exit code: 0 done and within budget; 1 the model ran and a check or budget
 /// failed; 2 bad input or configuration; 3 a fault of the program itself; 128 + the signal's number

@@ -6,7 +6,7 @@
 namespace parallax {
 
 bool shows_progress(const CommandContext& context) {
-  return context.verbosity != Verbosity::kQuiet && standard_error_is_terminal();
+  return context.progress && context.verbosity != Verbosity::kQuiet && standard_error_is_terminal();
 }
 
 }  // namespace parallax

@@ -17,6 +17,7 @@ struct CommandContext {
   std::ostream& err;  ///< messages
   CommandLine command_line;
   Verbosity verbosity = Verbosity::kNormal;
+  bool progress = true;           ///< may be shown on `err`
   std::function<int()> action{};  ///< returns the exit code (exit_codes.hpp); throws UserError for bad input
 };
 

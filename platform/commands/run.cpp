@@ -64,7 +64,8 @@ class Run {
     if (!options_.out.empty()) {
       folder_ = std::make_unique<OutputFolder>(options_.out, folder_plan(options_, plan()));
     }
-    RunFrames writer(images_, folder_.get(), frame_options(), configuration_.machine.matching.range().last());
+    RunFrames writer(images_, folder_.get(), options_.take, frame_options(),
+                     configuration_.machine.matching.range().last());
     Simulation simulation(length_.most, interrupted_);
     progress_ = std::make_unique<Progress>(context_.err, shows_progress(context_), "frames", length_.least,
                                            notes_.sink());

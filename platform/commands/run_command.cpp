@@ -12,11 +12,9 @@
 #include "platform/commands/run.hpp"
 
 namespace parallax {
-void add_run_command(CLI::App& app, CommandContext& context) {
-  const auto options = std::make_shared<RunOptions>();
-  CLI::App& command = *app.add_subcommand(
-      "run",
-      "Stereo pairs through the whole machine: disparity maps and timing. Without input: the built-in scene");
+
+std::shared_ptr<RunOptions> add_run_options(CLI::App& command) {
+  auto options = std::make_shared<RunOptions>();
   command.option_defaults()->take_last();
 
   add_input_options(command, *options);
@@ -106,6 +104,14 @@ void add_run_command(CLI::App& app, CommandContext& context) {
   add_circuit_options(command, options->circuits, options->circuit_shadow);
   add_json_option(command, options->json);
   add_configuration_options(command, options->configuration);
+  return options;
+}
+
+void add_run_command(CLI::App& app, CommandContext& context) {
+  CLI::App& command = *app.add_subcommand(
+      "run",
+      "Stereo pairs through the whole machine: disparity maps and timing. Without input: the built-in scene");
+  const std::shared_ptr<RunOptions> options = add_run_options(command);
   command.callback(
       [options, &context] { context.action = [options, &context] { return run(*options, context); }; });
 }

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
 #include <systemc>
-#include <utility>
 
 #include "platform/commands/exchanged_sides.hpp"
 #include "platform/input/raw_maps.hpp"
@@ -32,7 +31,12 @@ void RunFrames::take(const FrameResult& result) {
   }
   if (totals_.frames == 1 && !images_.is_scene() && 2 * totals_.valid < totals_.pixels)
     look_at_sides(result.index);
-  if (folder_ != nullptr) write(result, std::move(frame));
+  if (folder_ == nullptr && !listener_) return;
+  cv::Mat left(images_.padded(), CV_8UC1);
+  std::copy(result.left.begin(), result.left.end(), left.begin<Gray>());
+  frame.left = crop_image(left, images_.size());
+  if (listener_) listener_(result.index, frame);
+  if (folder_ != nullptr) write(result.index, frame);
 }
 
 // Costs some tenths of a second, which only a first frame with little to show is worth.
@@ -59,12 +63,9 @@ void RunFrames::look_at_sides(std::int64_t frame) {
       "the right image, where it must lie further left");
 }
 
-void RunFrames::write(const FrameResult& result, FrameImages frame) {
-  cv::Mat left(images_.padded(), CV_8UC1);
-  std::copy(result.left.begin(), result.left.end(), left.begin<Gray>());
-  frame.left = crop_image(left, images_.size());
+void RunFrames::write(std::int64_t index, const FrameImages& frame) {
   const bool single = images_.frames() == 1;
-  write_frame(*folder_, single ? "" : fmt::format("frame_{:04}/", result.index), frame, options_);
+  write_frame(*folder_, single ? "" : fmt::format("frame_{:04}/", index), frame, options_);
   if (single) return;
   folder_->publish_written();
   if (!strip_)

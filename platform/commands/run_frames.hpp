@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <utility>
@@ -17,10 +18,16 @@ namespace parallax {
 /// What comes out of the machine, frame by frame: counted, compared with the ground truth, and written.
 class RunFrames {
  public:
-  /// `folder`: null, if nothing is to be written. `largest_disparity`: px, that the machine looks for.
-  RunFrames(const RunImages& images, OutputFolder* folder, FrameResultOptions options, int largest_disparity)
+  /// Hears of each frame.
+  using Listener = std::function<void(std::int64_t frame, const FrameImages& result)>;
+
+  /// `folder`: null, if nothing is to be written; `listener`: if nobody is to hear. `largest_disparity`: px,
+  /// that the machine looks for.
+  RunFrames(const RunImages& images, OutputFolder* folder, Listener listener, FrameResultOptions options,
+            int largest_disparity)
       : images_(images),
         folder_(folder),
+        listener_(std::move(listener)),
         options_(std::move(options)),
         largest_disparity_(largest_disparity) {}
 
@@ -37,11 +44,12 @@ class RunFrames {
   }
 
  private:
-  void write(const FrameResult& result, FrameImages frame);
+  void write(std::int64_t index, const FrameImages& frame);
   void look_at_sides(std::int64_t frame);
 
   const RunImages& images_;
   OutputFolder* const folder_;
+  const Listener listener_;
   const FrameResultOptions options_;
   const int largest_disparity_;
   RunTotals totals_;

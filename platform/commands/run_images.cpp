@@ -9,7 +9,7 @@
 namespace parallax {
 
 RunImages::RunImages(const RunOptions& options, const MachineConfig& config, const NoticeSink& notice)
-    : is_scene_(options.left.empty() && options.input.empty()),
+    : is_scene_(options.is_scene()),
       source_(open_source(options, config, notice)),
       granularity_(config.image.granularity()),
       size_(source_->width(), source_->height()),

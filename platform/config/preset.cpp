@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "platform/config/preset.hpp"
 
+#include <dlfcn.h>
 #include <fmt/format.h>
+#include <link.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -101,6 +103,20 @@ int load(const fs::path& file, const Folders& folders, const std::string& what, 
   return layer;
 }
 
+// The program, or the shared library that holds this code; empty where it cannot be found.
+fs::path own_file() {
+  Dl_info ignored{};
+  void* object = nullptr;
+  const auto* const here = reinterpret_cast<const void*>(&own_file);
+  if (::dladdr1(here, &ignored, &object, RTLD_DL_LINKMAP) != 0) {
+    const fs::path library = static_cast<const link_map*>(object)->l_name;
+    if (!library.empty()) return library;
+  }
+  std::error_code failed;
+  const fs::path program = fs::read_symlink("/proc/self/exe", failed);
+  return failed ? fs::path() : program;
+}
+
 }  // namespace
 
 std::vector<fs::path> preset_folders() {
@@ -111,9 +127,7 @@ std::vector<fs::path> preset_folders() {
       if (!folder.empty()) folders.emplace_back(folder);
     }
   }
-  std::error_code failed;
-  const fs::path program = fs::read_symlink("/proc/self/exe", failed);
-  if (!failed) {
+  if (const fs::path program = own_file(); !program.empty()) {
     folders.push_back(program.parent_path() / "presets");
     folders.push_back((program.parent_path() / ".." / "share" / "parallax" / "presets").lexically_normal());
   }

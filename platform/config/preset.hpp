@@ -11,7 +11,8 @@
 namespace parallax {
 
 /// Folders that are searched for `<name>.toml`, first match wins: those of the environment variable
-/// PARALLAX_PRESET_PATH (separated by colons), `presets` beside the program, `../share/parallax/presets`.
+/// PARALLAX_PRESET_PATH (separated by colons), `presets` beside the program, `../share/parallax/presets`. In
+/// a shared library (the Python module) beside that, in the place of the program.
 std::vector<std::filesystem::path> preset_folders();
 
 /// Whether a preset's name is a path: it contains a slash or ends in ".toml".

@@ -15,13 +15,12 @@ EvaluationInput EvaluationInputs::prepare(const MachineConfig& config, const Not
   input.map = &map_for(config, source, notice);
   input.frames = source.frames();
   input.timing_frames = options_.timing_frames;
-  if (options_.left.empty() && options_.input.empty()) input.scene_seed = options_.scene.seed;
+  if (options_.is_scene()) input.scene_seed = options_.scene.seed;
   return input;
 }
 
 const FrameSource& EvaluationInputs::source_for(const MachineConfig& config, const NoticeSink& notice) {
-  const bool scene = options_.left.empty() && options_.input.empty();
-  const DisparityRange range = scene ? config.matching.range() : DisparityRange{};
+  const DisparityRange range = options_.is_scene() ? config.matching.range() : DisparityRange{};
   const ImageConfig& image = config.image;
   const ImageLimits largest = largest_images(config);
   const SourceKey key{image.width, image.height, largest.width, largest.height, range.offset, range.count};

@@ -16,12 +16,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-cv::Mat decode(const fs::path& path, const ImageLimits& limits) {
-  cv::Mat image = read_image_file(path.string(), "image", [&](const cv::Size& size) {
+// `pixels`: the image, if it is in memory.
+cv::Mat decode(const fs::path& path, const cv::Mat& pixels, const ImageLimits& limits) {
+  const auto check = [&](const cv::Size& size) {
     if (size.width <= limits.width && size.height <= limits.height) return;
     throw UserError(fmt::format("image {} is {}, larger than the largest size {}x{}", path.string(),
                                 size_text(size), limits.width, limits.height));
-  });
+  };
+  if (!pixels.empty()) check(pixels.size());
+  const cv::Mat image = pixels.empty() ? read_image_file(path.string(), "image", check) : pixels;
   if (image.depth() != CV_8U && image.depth() != CV_16U) {
     const bool real = image.depth() == CV_16F || image.depth() == CV_32F || image.depth() == CV_64F;
     throw UserError(fmt::format("image {} has {} values, expected unsigned integers of 8 or 16 bits",
@@ -60,6 +63,7 @@ ImageInput::ImageInput(std::vector<ImagePair> pairs, const ImageChoice& choice, 
     throw UserError("there is no image pair to read");
   }
   for (const ImagePair& pair : pairs_) {
+    if (pair.in_memory()) continue;
     require_image_file(pair.left.string(), "image");
     require_image_file(pair.right.string(), "image");
   }
@@ -121,8 +125,8 @@ void ImageInput::choose_bits(std::size_t frame, const StereoImages& images) {
 }
 
 StereoImages ImageInput::read_mono(const ImagePair& pair) {
-  const cv::Mat left = decode(pair.left, choice_.limits);
-  const cv::Mat right = decode(pair.right, choice_.limits);
+  const cv::Mat left = decode(pair.left, pair.pixels.left, choice_.limits);
+  const cv::Mat right = decode(pair.right, pair.pixels.right, choice_.limits);
   if (left.size() != right.size()) {
     throw UserError(fmt::format("the left image {} is {}, the right image {} is {}; both must have one size",
                                 pair.left.string(), size_text(left.size()), pair.right.string(),

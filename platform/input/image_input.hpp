@@ -29,8 +29,8 @@ struct ImageChoice {
   bool first_only = false;  ///< only the size is wanted: nothing but the first pair is looked at
 };
 
-/// A sequence of stereo pairs from files. A frame is read when it is asked for and not kept, so memory does
-/// not grow with the sequence. Every fault of the files is a UserError of one line.
+/// A sequence of stereo pairs from files, or in memory. A frame is read when it is asked for and not kept, so
+/// memory does not grow with the sequence. Every fault of the files is a UserError of one line.
 ///
 /// Colour becomes mono by ITU-R BT.601 (0.299 R + 0.587 G + 0.114 B), transparency is ignored. 16-bit values
 /// become 8-bit ones by dropping low bits. How many bits they have is stated, or else it is the least of 8,

@@ -80,4 +80,13 @@ std::vector<ImagePair> find_image_pairs(const fs::path& folder_or_list) {
   return fs::is_directory(folder_or_list) ? pairs_of_folder(folder_or_list) : pairs_of_list(folder_or_list);
 }
 
+std::vector<ImagePair> pairs_in_memory(const std::vector<StereoImages>& images) {
+  std::vector<ImagePair> pairs;
+  for (const StereoImages& pixels : images) {
+    const std::string number = images.size() == 1 ? "" : fmt::format("[{}]", pairs.size());
+    pairs.push_back({"left" + number, "right" + number, pixels});
+  }
+  return pairs;
+}
+
 }  // namespace parallax

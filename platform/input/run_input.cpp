@@ -52,6 +52,20 @@ std::unique_ptr<FrameSource> scene(const RunOptions& options, const MachineConfi
   return scene_source(scene_config, options.frames.value_or(1));
 }
 
+// At most as many as are asked for.
+std::vector<ImagePair> pairs_of(const RunOptions& options) {
+  std::vector<ImagePair> pairs;
+  if (!options.images.empty()) {
+    pairs = pairs_in_memory(options.images);
+  } else if (!options.input.empty()) {
+    pairs = find_image_pairs(options.input);
+  } else {
+    pairs = {{options.left, options.right}};
+  }
+  pairs.resize(std::min<std::size_t>(pairs.size(), options.frames.value_or(kMostFrames)));
+  return pairs;
+}
+
 // What computes no images has no use for what is about them.
 void check_timing_only(const RunOptions& options) {
   if (!options.timing_only) {
@@ -157,7 +171,7 @@ void check_options(const RunOptions& options) {
   if (!options.map.empty() && !options.calibration.empty()) {
     throw UserError("--map and --calibration exclude each other: both say how to rectify");
   }
-  if (options.left.empty() && options.input.empty()) {
+  if (options.is_scene()) {
     if (options.image_bits) throw UserError("--image-bits is for 16-bit images, but none are given");
     if (options.ground_truth.empty()) return;
     throw UserError(
@@ -173,15 +187,12 @@ void check_options(const RunOptions& options) {
 
 std::unique_ptr<FrameSource> open_source(const RunOptions& options, const MachineConfig& config,
                                          const NoticeSink& notice) {
-  if (options.left.empty() && options.input.empty()) return scene(options, config);
-  std::vector<ImagePair> pairs = options.input.empty() ? std::vector<ImagePair>{{options.left, options.right}}
-                                                       : find_image_pairs(options.input);
-  pairs.resize(std::min<std::size_t>(pairs.size(), options.frames.value_or(kMostFrames)));
+  if (options.is_scene()) return scene(options, config);
   ImageChoice choice;
   choice.limits = largest_images(config);
   choice.bits = options.image_bits;
   choice.first_only = options.timing_only;
-  auto source = file_source(std::move(pairs), choice,
+  auto source = file_source(pairs_of(options), choice,
                             {options.ground_truth, options.mask, options.ground_truth_scale,
                              truth_encoding(options.ground_truth_encoding)},
                             notice);

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,9 +11,12 @@
 #include "platform/config/configuration.hpp"
 #include "platform/input/circuit_options.hpp"
 #include "platform/scene/scene_config.hpp"
+#include "platform/scene/stereo_images.hpp"
 #include "platform/tracing/trace_options.hpp"
 
 namespace parallax {
+
+struct FrameImages;
 
 /// What the user asked `parallax run` for.
 struct RunOptions {
@@ -21,7 +25,8 @@ struct RunOptions {
   std::string left;
   std::string right;
   std::string input;
-  std::string size;  ///< WxH of the built-in scene
+  std::vector<StereoImages> images;  ///< pairs in memory instead, of the pixels that a file may have
+  std::string size;                  ///< WxH of the built-in scene
   SceneConfig scene;
   bool rectified = false;                     ///< the built-in scene without distortion
   std::optional<std::int64_t> frames;         ///< none: all of the input; one of the scene
@@ -48,6 +53,11 @@ struct RunOptions {
   bool report = false;  ///< a page of HTML in `out`, with what taking away each limit gains
   bool point_cloud = true;
   bool json = false;
+  /// Hears of each frame with images, where a program takes them from memory.
+  std::function<void(std::int64_t frame, const FrameImages& result)> take;
+
+  /// Whether the built-in scene is the input.
+  bool is_scene() const { return left.empty() && input.empty() && images.empty(); }
 };
 
 }  // namespace parallax

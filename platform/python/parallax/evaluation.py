@@ -1,0 +1,36 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Many machines, timed on all processors."""
+
+from typing import Iterable, List, Mapping, Optional, Union
+
+from . import _core
+from .errors import UserError
+from .machine import Machine
+from .results import Run, point_of
+from .words import assignments, encoded, option_words
+
+
+def evaluate(points: Iterable[Union[Mapping, Machine]], *, machine: Optional[Machine] = None, workers: Optional[int] = None,
+             **options) -> List[Run]:
+    """The timing of many points, as Machine.time() gives it, in their order: the results do not depend on `workers`.
+
+    points: keys to set each, on top of `machine` (SceneScan Pro if not given); or machines. options: the input, as of
+    Machine.run(): size, seed, frames, input, ... for all points. workers: processes; as many as there are processors, at
+    most eight, if not given.
+
+    What is wrong with a point is not raised: its Run has the status invalid, stuck or failed, with a message."""
+    if workers is not None and workers < 1:
+        raise UserError(f"workers is {workers}, allowed is 1 or more")
+    base = Machine() if machine is None else machine
+    input_words = encoded(option_words({"timing_only": True, "verdict": False, **options}))
+    words = [(input_words, encoded(_words(base, point))) for point in points]
+    return [point_of(*result) for result in _core.evaluate(words, workers or 0)] if words else []
+
+
+def _words(base, point):
+    if isinstance(point, Machine):
+        return point.words()
+    words = base.words()
+    for one in assignments(point):
+        words += ["--set", one]
+    return words
