@@ -6,7 +6,7 @@ include(CMakePackageConfigHelpers)
 
 install(TARGETS parallax parallax_tlm parallax_modules parallax_traces parallax_platform parallax_stage EXPORT parallax)
 install(DIRECTORY tlm modules traces platform DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/parallax
-  FILES_MATCHING PATTERN "*.hpp" PATTERN presets EXCLUDE PATTERN cosim/stage EXCLUDE)
+  FILES_MATCHING PATTERN "*.hpp" PATTERN presets EXCLUDE PATTERN cosim/stage EXCLUDE PATTERN platform/python EXCLUDE)
 install(DIRECTORY platform/presets/ DESTINATION ${CMAKE_INSTALL_DATADIR}/parallax/presets
   OPTIONAL FILES_MATCHING PATTERN "*.toml")
 install(DIRECTORY platform/cosim/circuit/ DESTINATION ${CMAKE_INSTALL_DATADIR}/parallax/circuit)

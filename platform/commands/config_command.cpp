@@ -46,10 +46,7 @@ int run_config(const ConfigOptions& options, std::ostream& out) {
     return 0;
   }
   Configuration configuration = load_configuration(options.request, preset_folders());
-  for (EffectiveKey& key : configuration.keys) {
-    const std::string remark = run_time_remark(key.section + "." + key.name);
-    if (!remark.empty()) key.documentation += " " + remark;
-  }
+  add_run_time_remarks(configuration.keys);
   if (options.json) {
     out << json_text(to_json(configuration, options.documented), 2) << '\n';
   } else {

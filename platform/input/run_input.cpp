@@ -147,7 +147,7 @@ void check_options(const RunOptions& options) {
     throw UserError(fmt::format("{} is missing: a pair needs --left and --right",
                                 options.left.empty() ? "--left" : "--right"));
   }
-  if (!options.left.empty() && !options.input.empty())
+  if ((!options.left.empty() || !options.images.empty()) && !options.input.empty())
     throw UserError("--input and --left/--right exclude each other");
   const auto count = [](const char* option, std::int64_t value) {
     if (value >= 1 && value <= kMostFrames) return;

@@ -3,16 +3,23 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <cstdint>
+#include <nlohmann/json.hpp>
 #include <opencv2/core/mat.hpp>
 #include <opencv2/imgproc.hpp>
+#include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "platform/commands/cli.hpp"
+#include "platform/config/config_writer.hpp"
 #include "platform/config/configuration.hpp"
 #include "platform/config/nearest_key.hpp"
 #include "platform/config/preset.hpp"
 #include "platform/python/evaluated_points.hpp"
 #include "platform/python/run_process.hpp"
+#include "platform/registers/run_time_parameters.hpp"
 #include "platform/results/ground_truth.hpp"
 #include "platform/results/result_images.hpp"
 #include "platform/results/version.hpp"
@@ -27,29 +34,36 @@ extern "C" __attribute__((visibility("default"))) int sc_main(int, char**) { ret
 namespace parallax {
 namespace {
 
-// What Python has noted of signals, Ctrl-C above all, is thrown when this says yes.
+// Whether Python has noted a signal, Ctrl-C above all, whose exception then waits to be thrown; whoever asks
+// again is told the same.
 bool signal_arrived() {
   const py::gil_scoped_acquire python;
-  return PyErr_CheckSignals() != 0;
+  return PyErr_Occurred() != nullptr || PyErr_CheckSignals() != 0;
 }
 
-py::list keys_of(const Configuration& configuration) {
-  py::list keys;
-  for (const EffectiveKey& key : configuration.keys) {
-    keys.append(py::make_tuple(key.section + "." + key.name, key.value, key.unit, key.expected,
-                               key.documentation, std::string(1, static_cast<char>(key.provenance.tag)),
-                               key.provenance.source));
-  }
-  return keys;
-}
-
-py::list load(const std::string& preset, const std::vector<std::string>& assignments,
-              const std::optional<std::int64_t>& disparities) {
+Configuration configuration(const std::string& preset, const std::vector<std::string>& assignments,
+                            const std::optional<std::int64_t>& disparities) {
   ConfigurationRequest request;
   request.preset = preset;
   request.assignments = assignments;
   request.disparity_range = disparities;
-  return keys_of(load_configuration(request, preset_folders()));
+  return load_configuration(request, preset_folders());
+}
+
+py::dict load(const std::string& preset, const std::vector<std::string>& assignments,
+              const std::optional<std::int64_t>& disparities) {
+  py::dict values;
+  for (const EffectiveKey& key : configuration(preset, assignments, disparities).keys)
+    values[(key.section + "." + key.name).c_str()] = key.value;
+  return values;
+}
+
+// As `parallax config --docs --json`.
+py::bytes document(const std::string& preset, const std::vector<std::string>& assignments,
+                   const std::optional<std::int64_t>& disparities) {
+  Configuration documented = configuration(preset, assignments, disparities);
+  add_run_time_remarks(documented.keys);
+  return json_text(to_json(documented, true));
 }
 
 py::tuple cause_names() {
@@ -98,7 +112,7 @@ py::tuple run_words(const std::vector<std::string>& words,
       over = process.wait();
     }
     // A signal from the terminal reaches both, and the other may have ended of it.
-    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+    if (signal_arrived()) throw py::error_already_set();
   }
   RunOutcome outcome = process.outcome();
   py::list frames;
@@ -184,6 +198,7 @@ PYBIND11_MODULE(_core, module) {
                            static_cast<py::ssize_t>(pages.size()));
   });
   module.def("load", &load);
+  module.def("document", &document);
   module.def("presets", &presets);
   module.def("run", &run_words);
   module.def("evaluate", &evaluate_words);

@@ -133,4 +133,11 @@ std::string run_time_remark(const std::string& path) {
   return "";
 }
 
+void add_run_time_remarks(std::vector<EffectiveKey>& keys) {
+  for (EffectiveKey& key : keys) {
+    const std::string remark = run_time_remark(key.section + "." + key.name);
+    if (!remark.empty()) key.documentation += " " + remark;
+  }
+}
+
 }  // namespace parallax

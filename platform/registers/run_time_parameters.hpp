@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "platform/config/configuration.hpp"
 #include "platform/config/machine_config.hpp"
 #include "platform/registers/parameter_member.hpp"
 #include "tlm/register_bank.hpp"
@@ -55,5 +56,8 @@ std::vector<RegisterField> parameter_error_fields();
 /// "May change from frame to frame: ..." for the documentation of a configuration key; empty when the key is
 /// fixed once the machine is built.
 std::string run_time_remark(const std::string& key);
+
+/// Adds it to the documentation of all keys.
+void add_run_time_remarks(std::vector<EffectiveKey>& keys);
 
 }  // namespace parallax

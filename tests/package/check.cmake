@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# cmake -DBUILD= -DFLAGS= -DGENERATOR= -P: installs BUILD into a prefix of its own and builds and runs a consumer of it.
+# cmake -DBUILD= -DFLAGS= -DGENERATOR= [-DPYTHON=] -P: installs BUILD into a prefix of its own and builds and runs a consumer of it.
 set(area ${BUILD}/package)
 file(REMOVE_RECURSE ${area})
 
@@ -25,6 +25,13 @@ run(${area}/build/own_pins)
 run(${area}/build/own_memory)
 run(${area}/build/own_exploration)
 run(${area}/build/own_circuit --timing-frames 1 --no-verdict)
+
+# The Python module is where it is installed all that it needs.
+if(PYTHON)
+  file(GLOB folder ${area}/prefix/lib/python3*/dist-packages)
+  run(${CMAKE_COMMAND} -E env PYTHONPATH=${folder} ${PYTHON} -c
+    "import parallax; print(parallax.Machine('core-alone').time(size=(96, 64), rectified=True)['performance/frame_rate'])")
+endif()
 
 # A test bench in SystemVerilog that asks the installed library (DPI-C), with a circuit that is right and one that is not.
 file(GLOB_RECURSE library ${area}/prefix/libparallax_stage.so)

@@ -5,13 +5,14 @@ from typing import Iterable, List, Mapping, Optional, Union
 
 from . import _core
 from .errors import UserError
+from .images import is_array
 from .machine import Machine
 from .results import Run, point_of
-from .words import assignments, encoded, option_words
+from .words import encoded, input_words, machine_words
 
 
 def evaluate(points: Iterable[Union[Mapping, Machine]], *, machine: Optional[Machine] = None, workers: Optional[int] = None,
-             **options) -> List[Run]:
+             size=None, seed=None, frames=None, **options) -> List[Run]:
     """The timing of many points, as Machine.time() gives it, in their order: the results do not depend on `workers`.
 
     points: keys to set each, on top of `machine` (SceneScan Pro if not given); or machines. options: the input, as of
@@ -22,15 +23,16 @@ def evaluate(points: Iterable[Union[Mapping, Machine]], *, machine: Optional[Mac
     if workers is not None and workers < 1:
         raise UserError(f"workers is {workers}, allowed is 1 or more")
     base = Machine() if machine is None else machine
-    input_words = encoded(option_words({"timing_only": True, "verdict": False, **options}))
-    words = [(input_words, encoded(_words(base, point))) for point in points]
+    for side in ("left", "right"):
+        if is_array(options.get(side)):
+            raise UserError(f"{side} is an array: evaluate() takes files; or their size, as images are not looked at")
+    given = encoded(input_words({**options, "timing_only": True}, size=size, seed=seed, frames=frames, verdict=False))
+    words = [(given, encoded(_words(base, point))) for point in points]
     return [point_of(*result) for result in _core.evaluate(words, workers or 0)] if words else []
 
 
 def _words(base, point):
     if isinstance(point, Machine):
         return point.words()
-    words = base.words()
-    for one in assignments(point):
-        words += ["--set", one]
-    return words
+    settings = {key: value for key, value in base.settings.items() if key not in point}
+    return machine_words(base.preset, {**settings, **point}, base.disparities)

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """A machine: a preset with keys set."""
 
+import json
 import os
 from collections.abc import Mapping
 from typing import Any, Dict, List, NamedTuple, Optional
@@ -9,7 +10,7 @@ from . import _core
 from .errors import Deadlock, Error, UnknownKey
 from .images import is_array, pairs
 from .results import Run, run_of
-from .words import assignments, encoded, option_words
+from .words import assignments, encoded, input_words, machine_words
 
 
 class Key(NamedTuple):
@@ -41,13 +42,19 @@ class Machine(Mapping):
         self._preset = os.fspath(preset)
         self._settings = {}
         self._disparities = disparities
-        self._keys = {}
+        self._values = {}
+        self._documented = None
         self.set(settings or {})
 
     @property
     def preset(self) -> str:
         """Name or path of the preset."""
         return self._preset
+
+    @property
+    def disparities(self) -> Optional[int]:
+        """The disparity range that was asked for, if one was."""
+        return self._disparities
 
     @property
     def settings(self) -> Dict[str, Any]:
@@ -62,9 +69,9 @@ class Machine(Mapping):
             settings = {settings: value}
         changed = {key: one for key, one in self._settings.items() if key not in settings}
         changed.update(settings)
-        keys = _core.load(self._preset, encoded(assignments(changed)), self._disparities)
+        self._values = _core.load(self._preset, encoded(assignments(changed)), self._disparities)
         self._settings = changed
-        self._keys = {key[0]: Key(*key) for key in keys}
+        self._documented = None
 
     __setitem__ = set
 
@@ -74,18 +81,24 @@ class Machine(Mapping):
 
     def key(self, name: str) -> Key:
         """A key with its unit, what it allows, what it means and where its value is from."""
-        if name not in self._keys:
-            raise UnknownKey(f"unknown key {name}; the nearest is {_core.nearest_key(name, list(self._keys))}")
-        return self._keys[name]
+        value = self[name]
+        if self._documented is None:
+            self._documented = json.loads(_core.document(self._preset, encoded(assignments(self._settings)), self._disparities))
+        found = self._documented
+        for part in name.split("."):
+            found = found[part]
+        return Key(name, value, found["unit"], found["allowed"], found["documentation"], found["tag"], found["source"])
 
     def __getitem__(self, name: str):
-        return self.key(name).value
+        if name not in self._values:
+            raise UnknownKey(f"unknown key {name}; the nearest is {_core.nearest_key(name, list(self._values))}")
+        return self._values[name]
 
     def __iter__(self):
-        return iter(self._keys)
+        return iter(self._values)
 
     def __len__(self) -> int:
-        return len(self._keys)
+        return len(self._values)
 
     def __repr__(self) -> str:
         settings = f", {self._settings}" if self._settings else ""
@@ -94,10 +107,7 @@ class Machine(Mapping):
 
     def words(self) -> List[str]:
         """The machine as options of the program: `--preset`, `--set`, `--disparities`."""
-        words = [] if self._preset == "scenescan-pro" else option_words({"preset": self._preset})
-        for one in assignments(self._settings):
-            words += ["--set", one]
-        return words + option_words({"disparities": self._disparities})
+        return machine_words(self._preset, self._settings, self._disparities)
 
     def run(self, left=None, right=None, *, size=None, seed=None, frames=None, verdict=True, keep=True, **options) -> Run:
         """Images through the machine: what `parallax run` does, as a Run.
@@ -115,7 +125,7 @@ class Machine(Mapping):
         arrays = pairs(left, right) if is_array(left) or is_array(right) else []
         if not arrays:
             options = {"left": left, "right": right, **options}
-        words = option_words({**options, "size": size, "seed": seed, "frames": frames, "verdict": verdict}) + self.words()
+        words = input_words(options, size=size, seed=seed, frames=frames, verdict=verdict) + self.words()
         code, timing, said, planes, pages = _core.run(encoded(words), arrays, keep)
         run = run_of(code, timing, said, planes, pages)
         if run.status == "stuck":

@@ -46,6 +46,19 @@ def option_words(options):
     return words
 
 
+def input_words(options, *, size, seed, frames, verdict):
+    """Those of a run, in one order whoever asks."""
+    return option_words({**options, "size": size, "seed": seed, "frames": frames, "verdict": verdict})
+
+
+def machine_words(preset, settings, disparities):
+    """The options that make a machine: `--preset`, `--set`, `--disparities`."""
+    words = [] if preset == "scenescan-pro" else option_words({"preset": preset})
+    for one in assignments(settings):
+        words += ["--set", one]
+    return words + option_words({"disparities": disparities})
+
+
 def encoded(words):
     """As the libraries take them: names of files may be any bytes."""
     return [os.fsencode(word) for word in words]
