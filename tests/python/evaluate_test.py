@@ -38,6 +38,9 @@ class Evaluate(unittest.TestCase):
         self.assertEqual(parallax.evaluate([]), [])
         with self.assertRaisesRegex(parallax.UserError, "^workers is 0, allowed is 1 or more$"):
             parallax.evaluate([{}], workers=0)
+        with self.assertRaisesRegex(parallax.UserError, r"^evaluate\(\) looks for no verdict: Machine.time\(verdict=True\) does, "
+                                                        "for one machine$"):
+            parallax.evaluate([{}], verdict=True)
         with self.assertRaisesRegex(parallax.UserError, r"^left is an array: evaluate\(\) takes files; or their size, as images"):
             parallax.evaluate([{}], left=[[1]], right=[[1]])
 

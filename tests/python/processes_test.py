@@ -117,6 +117,32 @@ class Interrupts(unittest.TestCase):
         timer.join()
 
 
+class Memory(unittest.TestCase):
+    def test_that_there_is_not_is_an_error(self):
+        script = ("import parallax, resource\n"
+                  "resource.setrlimit(resource.RLIMIT_FSIZE, (1000, 1000))\n"
+                  "try:\n"
+                  "    parallax.Machine(disparities=32).run(size=(96, 64), verdict=False)\n"
+                  "except parallax.Error as error:\n"
+                  "    print(type(error).__name__, error)\n")
+        said = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True)
+        self.assertEqual(said.stdout, "Error no memory for the results: File too large\n", said.stderr)
+
+    def test_is_given_back(self):
+        def maps():
+            with open("/proc/self/maps") as file:
+                return sum("memfd:parallax" in line for line in file)
+
+        machine = parallax.Machine(disparities=32)
+        runs = [machine.run(size=SMALL, verdict=False) for _ in range(2)]
+        raw = runs[0].raw
+        self.assertEqual(maps(), 2)
+        del runs
+        self.assertEqual(maps(), 1)
+        del raw
+        self.assertEqual(maps(), 0)
+
+
 class Import(unittest.TestCase):
     def test_does_not_load_numpy(self):
         script = "import parallax, sys; print('numpy' in sys.modules)"

@@ -22,6 +22,8 @@ def evaluate(points: Iterable[Union[Mapping, Machine]], *, machine: Optional[Mac
     What is wrong with a point is not raised: its Run has the status invalid, stuck or failed, with a message."""
     if workers is not None and workers < 1:
         raise UserError(f"workers is {workers}, allowed is 1 or more")
+    if options.pop("verdict", False):
+        raise UserError("evaluate() looks for no verdict: Machine.time(verdict=True) does, for one machine")
     base = Machine() if machine is None else machine
     for side in ("left", "right"):
         if is_array(options.get(side)):
