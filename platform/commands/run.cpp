@@ -14,6 +14,7 @@
 #include "platform/commands/interruption.hpp"
 #include "platform/commands/notes.hpp"
 #include "platform/commands/relax.hpp"
+#include "platform/commands/right_images.hpp"
 #include "platform/commands/run_folder.hpp"
 #include "platform/commands/run_frames.hpp"
 #include "platform/commands/run_images.hpp"
@@ -64,7 +65,7 @@ class Run {
     if (!options_.out.empty()) {
       folder_ = std::make_unique<OutputFolder>(options_.out, folder_plan(options_, plan()));
     }
-    RunFrames writer(images_, folder_.get(), options_.take, frame_options(),
+    RunFrames writer(images_, folder_.get(), listener(), frame_options(),
                      configuration_.machine.matching.range().last());
     Simulation simulation(length_.most, interrupted_);
     progress_ = std::make_unique<Progress>(context_.err, shows_progress(context_), "frames", length_.least,
@@ -79,6 +80,7 @@ class Run {
     if ((options_.verdict && !circuits_) || options_.report)
       trials_.emplace(options_.configuration, timing_input(), context_, interruption_);
     const Machine machine("machine", configuration_.machine, machine_input(simulation, writer));
+    if (options_.take) right_images_ = std::make_unique<RightImages>(machine);
     SamplingTimer timer("sampling_timer");
     if (folder_) profile_ = std::make_unique<RunProfile>(machine, timer);
     if (options_.trace.wanted())
@@ -106,6 +108,14 @@ class Run {
     plan.circuits = !options_.circuits.empty();
     plan.traces = trace_choice_.formats;
     return plan;
+  }
+
+  RunFrames::Listener listener() {
+    if (!options_.take) return {};
+    return [this](std::int64_t index, FrameImages& frame) {
+      frame.right = crop_image(right_images_->take(), images_.size());
+      options_.take(index, frame);
+    };
   }
 
   FrameResultOptions frame_options() const {
@@ -269,6 +279,7 @@ class Run {
   std::unique_ptr<Progress> progress_;
   std::unique_ptr<CircuitRun> circuits_;  // in the place of stages, if there are any
   std::optional<TrialPool> trials_;
+  std::unique_ptr<RightImages> right_images_;  // where a program takes frames
   std::unique_ptr<Tracing> tracing_;
   std::unique_ptr<RunProfile> profile_;
 };

@@ -18,8 +18,8 @@ namespace parallax {
 /// What comes out of the machine, frame by frame: counted, compared with the ground truth, and written.
 class RunFrames {
  public:
-  /// Hears of each frame.
-  using Listener = std::function<void(std::int64_t frame, const FrameImages& result)>;
+  /// Hears of each frame, to which it may add.
+  using Listener = std::function<void(std::int64_t frame, FrameImages& result)>;
 
   /// `folder`: null, if nothing is to be written; `listener`: if nobody is to hear. `largest_disparity`: px,
   /// that the machine looks for.

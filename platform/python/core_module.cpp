@@ -97,7 +97,7 @@ py::dict planes(const FramePlanes& frame) {
   using namespace py::literals;
   return py::dict("index"_a = frame.index, "width"_a = frame.width, "height"_a = frame.height,
                   "disparities"_a = frame.disparities, "causes"_a = frame.causes, "left"_a = frame.left,
-                  "truth"_a = frame.truth, "mask"_a = frame.mask);
+                  "right"_a = frame.right, "truth"_a = frame.truth, "mask"_a = frame.mask);
 }
 
 py::tuple run_words(const std::vector<std::string>& words,

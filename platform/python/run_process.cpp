@@ -37,12 +37,14 @@ Json share(SharedPages& pages, std::int64_t index, const FrameImages& frame) {
     causes.push_back(disparity.cause);
   }
   const std::vector<Gray> left(frame.left.begin<Gray>(), frame.left.end<Gray>());
+  const std::vector<Gray> right(frame.right.begin<Gray>(), frame.right.end<Gray>());
   Json planes{{"index", index},
               {"width", frame.left.cols},
               {"height", frame.left.rows},
               {"disparities", append(values)},
               {"causes", append(causes)},
-              {"left", append(left)}};
+              {"left", append(left)},
+              {"right", append(right)}};
   if (!frame.truth) return planes;
   planes["truth"] = append(frame.truth->disparity);
   if (!frame.truth->mask.empty()) planes["mask"] = append(frame.truth->mask);
@@ -56,7 +58,8 @@ std::vector<FramePlanes> frames_of(const Json& tree) {
   std::vector<FramePlanes> frames;
   for (const Json& frame : tree) {
     frames.push_back({frame.at("index"), frame.at("width"), frame.at("height"), frame.at("disparities"),
-                      frame.at("causes"), frame.at("left"), maybe(frame, "truth"), maybe(frame, "mask")});
+                      frame.at("causes"), frame.at("left"), frame.at("right"), maybe(frame, "truth"),
+                      maybe(frame, "mask")});
   }
   return frames;
 }

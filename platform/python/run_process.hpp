@@ -31,6 +31,7 @@ struct FramePlanes {
   std::size_t disparities = 0;         ///< 16 bits each: 1/16 px, or kInvalidDisparity
   std::size_t causes = 0;              ///< 8 bits each: Cause
   std::size_t left = 0;                ///< 8 bits each: rectified left image
+  std::size_t right = 0;               ///< the same of the right image
   std::optional<std::size_t> truth{};  ///< float, px; 0 = unknown
   std::optional<std::size_t> mask{};   ///< 8 bits each: 255 = scored
 };

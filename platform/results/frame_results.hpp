@@ -24,6 +24,7 @@ struct FrameImages {
   cv::Mat left;  ///< rectified, CV_8UC1
   std::vector<Disparity> disparities;
   std::optional<GroundTruth> truth;
+  cv::Mat right{};  ///< rectified, which is not written and need not be there
 };
 
 /// Adds the files of one frame to `folder`, under `prefix` ("" or "frame_0000/"); the caller publishes them:

@@ -56,6 +56,19 @@ class SameAsTheProgram(unittest.TestCase):
         self.assertEqual(run.frames, ())
         self.assertEqual(run["performance/frame_rate"], machine.run(size=SMALL, verdict=False)["performance/frame_rate"])
 
+    def test_rectified_images(self):
+        machine = parallax.Machine(disparities=32)
+        run = machine.run(size=SMALL, verdict=False)
+        with tempfile.TemporaryDirectory() as folder:
+            words = ["--size", "96x64", *machine.words(), "--stage", "rectification", "--out", folder]
+            code, _, said = program("vectors", *words)
+            self.assertEqual(code, 0, said)
+            for side in ("left", "right"):
+                with open(os.path.join(folder, f"{side}_rectified.memh")) as file:
+                    pixels = [int(line, 16) for line in file if not line.startswith("//")]
+                self.assertEqual(getattr(run, f"{side}_rectified").ravel().tolist(), pixels)
+        self.assertFalse((run.left_rectified == run.right_rectified).all())
+
     def test_a_sequence_of_the_scene(self):
         run = parallax.Machine(disparities=32).run(size=SMALL, frames=2, verdict=False)
         self.assertEqual([frame.index for frame in run.frames], [0, 1])
@@ -117,6 +130,16 @@ class Arrays(unittest.TestCase):
             Image.fromarray(red).save(path)
             of_file = self.machine.run(path, path, verdict=False)
         self.assertTrue((self.machine.run(red, red, verdict=False).left_rectified == of_file.left_rectified).all())
+
+    def test_may_be_wider_than_a_tile(self):
+        random = numpy.random.default_rng(1)
+        pair = [[random.integers(0, 256, (16, 1216), dtype=numpy.uint8) for _ in range(2)] for _ in range(2)]
+        run = self.machine.run(*pair, verdict=False)
+        self.assertGreater(run.timing["configuration"]["tiles"]["largest_number"], 1)
+        self.assertLess(run.timing["configuration"]["tiles"]["limit"], 1216)
+        for frame, left, right in zip(run.frames, *pair):  # nothing is to be rectified
+            self.assertTrue((frame.left_rectified == left).all())
+            self.assertTrue((frame.right_rectified == right).all())
 
     def test_may_be_a_sequence(self):
         self.same(*[[image] * 3 for image in self.pair], images=2, frames=2)

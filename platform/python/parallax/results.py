@@ -40,6 +40,7 @@ class Frame:
         self.raw = plane("disparities", numpy.uint16)  #: as the machine has them: 1/16 px, 4095 where there is none
         self.causes = plane("causes", numpy.uint8)  #: why there is none, or what changed it: an index of CAUSES
         self.left_rectified = plane("left", numpy.uint8)  #: the rectified left image, as the host receives it
+        self.right_rectified = plane("right", numpy.uint8)  #: the rectified right image, which the machine keeps to itself
         self.truth = plane("truth", numpy.float32)  #: true disparities, px, 0 = unknown; None if there is no ground truth
         self.mask = plane("mask", numpy.uint8)  #: 255 where the truth counts; None: everywhere
 
@@ -131,6 +132,7 @@ class Run:
     valid = property(lambda self: self.frame().valid, doc="Of the first frame: Frame.valid.")
     causes = property(lambda self: self.frame().causes, doc="Of the first frame: Frame.causes.")
     left_rectified = property(lambda self: self.frame().left_rectified, doc="Of the first frame: Frame.left_rectified.")
+    right_rectified = property(lambda self: self.frame().right_rectified, doc="Of the first frame: Frame.right_rectified.")
 
     def __repr__(self) -> str:
         what = f"{len(self.frames)} frames with images" if self.done else self.message
