@@ -136,7 +136,14 @@ void describe(Schema& schema, DeviceFile& device) {
 }
 
 DeviceFile load_device(const std::string& name, const std::vector<fs::path>& preset_folders) {
-  return load(name, below(preset_folders, "devices"), "device");
+  DeviceFile device = load(name, below(preset_folders, "devices"), "device");
+  const DeviceTotals& has = device.totals;
+  if (has.luts == 0 && has.registers == 0 && has.block_rams == 0 && has.dsps == 0) {
+    throw UserError(fmt::format(
+        "device {} states no total; set device.luts, device.block_rams, device.registers or device.dsps",
+        excerpt(name)));
+  }
+  return device;
 }
 
 DeviceFile load_family(const std::string& name, const std::vector<fs::path>& preset_folders) {

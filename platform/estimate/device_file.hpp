@@ -64,8 +64,8 @@ struct DeviceFile {
 void describe(Schema& schema, DeviceFile& device);
 
 /// A device by name, from `devices/<name>.toml` in the preset folders, or by path. Throws UserError, one
-/// line: not found (with the nearest name), unreadable, an unknown key, a value out of range, a shape that is
-/// none.
+/// line: not found (with the nearest name), unreadable, an unknown key, a missing one, a value out of range,
+/// a shape that is none, no total at all.
 DeviceFile load_device(const std::string& name, const std::vector<std::filesystem::path>& preset_folders);
 
 /// The family alone, with totals that are not known: "7-series" from `devices/family`.

@@ -68,7 +68,6 @@ std::string device_as_line(const ResourceEstimate& estimate, const DeviceFile& d
                        [](const DeviceShare& a, const DeviceShare& b) { return a.percent() < b.percent(); });
   const std::string missing = lacks(shares);
   if (!missing.empty()) return fmt::format("  {:<14} no: {}\n", device.name, missing);
-  if (fullest == shares.end()) return fmt::format("  {:<14} not known\n", device.name);
   return fmt::format("  {:<14} yes: {:.1f} % of {}\n", device.name, fullest->percent(), fullest->name);
 }
 

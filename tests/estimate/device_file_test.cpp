@@ -77,6 +77,8 @@ TEST_F(DeviceFiles, RefusesWhatIsWrongInAFile) {
                   "bits up "
                   "to 4096, or \"none\"");
   }
+  EXPECT_EQ(error_in(zynq_ + "[device]\nluts = 0\nregisters = 0\nblock_rams = 0\ndsps = 0\n"),
+            "own.toml states no total; set device.luts, device.block_rams, device.registers or device.dsps");
   EXPECT_EQ(error_in("[device]\nluts = 3\n"),
             "own.toml does not state family.name, nor does what it inherits; with inherits = \"zynq-7020\" "
             "it has all "
