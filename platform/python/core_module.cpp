@@ -85,8 +85,8 @@ cv::Mat matrix(const py::buffer& array) {
   const py::buffer_info info = array.request();
   const int channels = info.ndim == 3 ? static_cast<int>(info.shape[2]) : 1;
   const int depth = info.itemsize == 1 ? CV_8U : CV_16U;
-  const cv::Mat pixels(static_cast<int>(info.shape[0]), static_cast<int>(info.shape[1]),
-                       CV_MAKETYPE(depth, channels), info.ptr);
+  cv::Mat pixels(static_cast<int>(info.shape[0]), static_cast<int>(info.shape[1]),
+                 CV_MAKETYPE(depth, channels), info.ptr);
   if (channels == 1) return pixels;
   cv::Mat as_in_files;
   cv::cvtColor(pixels, as_in_files, channels == 3 ? cv::COLOR_RGB2BGR : cv::COLOR_RGBA2BGRA);
@@ -180,7 +180,7 @@ PYBIND11_MODULE(_core, module) {
       PyErr_SetString(py::module_::import("parallax.errors").attr(type).ptr(), one_line(text).c_str());
     };
     try {
-      std::rethrow_exception(thrown);
+      std::rethrow_exception(std::move(thrown));
     } catch (const py::error_already_set&) {
       throw;
     } catch (const py::builtin_exception&) {
