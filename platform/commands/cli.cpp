@@ -23,6 +23,7 @@
 #include "platform/commands/exit_codes.hpp"
 #include "platform/commands/explore_command.hpp"
 #include "platform/commands/fifo_command.hpp"
+#include "platform/commands/fifos_command.hpp"
 #include "platform/commands/glossary_command.hpp"
 #include "platform/commands/map_command.hpp"
 #include "platform/commands/memory_command.hpp"
@@ -75,6 +76,7 @@ void add_commands(CLI::App& app, CommandContext& context) {
   add_compare_command(app, context);
   add_circuit_command(app, context);
   add_fifo_command(app, context);
+  add_fifos_command(app, context);
   add_stage_command(app, context);
   add_estimate_command(app, context);
   refuse_empty_values(app);

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "platform/commands/fifos.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <utility>
+
+#include "platform/commands/command_context.hpp"
+#include "platform/commands/exit_codes.hpp"
+#include "platform/commands/fifos_output.hpp"
+#include "platform/commands/interruption.hpp"
+#include "platform/commands/notes.hpp"
+#include "platform/commands/run_folder.hpp"
+#include "platform/commands/trial_pool.hpp"
+#include "platform/config/preset.hpp"
+#include "platform/evaluation/evaluation_inputs.hpp"
+#include "platform/evaluation/trials.hpp"
+#include "platform/input/run_input.hpp"
+#include "platform/machine/steady_state.hpp"
+#include "tlm/error.hpp"
+#include "traces/json_text.hpp"
+#include "traces/number_text.hpp"
+
+namespace parallax {
+namespace {
+
+constexpr const char* kNumbers = "fifos.json";
+constexpr const char* kPreset = "depths.toml";
+
+FifoGoal goal_of(const FifosOptions& options) {
+  FifoGoal goal;
+  if (options.goal == "deadlock-free") {
+    goal.kind = FifoGoal::Kind::kDeadlockFree;
+  } else if (options.goal != "full-rate") {
+    throw UserError(
+        fmt::format("--goal is '{}', allowed is full-rate or deadlock-free", excerpt(options.goal)));
+  }
+  if (options.rate) {
+    if (goal.kind == FifoGoal::Kind::kDeadlockFree)
+      throw UserError("--rate and --goal deadlock-free exclude each other: each is a goal");
+    if (!std::isfinite(*options.rate) || *options.rate <= 0)
+      throw UserError(fmt::format("--rate is {}, it must be more than 0 frames/s", *options.rate));
+    goal.kind = FifoGoal::Kind::kRate;
+    goal.rate = *options.rate;
+  }
+  if (options.tolerance && goal.kind != FifoGoal::Kind::kFullRate)
+    throw UserError("--tolerance is of the full rate, but the goal is another");
+  const double tolerance = options.tolerance.value_or(FifosOptions::kUsualTolerance);
+  if (!(tolerance >= 0 && tolerance <= 100))
+    throw UserError(fmt::format("--tolerance is {}, allowed is 0 to 100 %", tolerance));
+  goal.tolerance = tolerance / 100;
+  return goal;
+}
+
+// The same for each run, so that all are measured over the same frames.
+std::int64_t frames_of(const RunOptions& options, const MachineConfig& config, const EvaluationInput& input) {
+  const std::int64_t usual = run_length(config, input.frames, std::nullopt).least;
+  if (!options.timing_frames) return usual;
+  if (*options.timing_frames < usual) {
+    throw UserError(fmt::format("--timing-frames is {}, but three frames of the steady state take {}",
+                                *options.timing_frames, usual));
+  }
+  return *options.timing_frames;
+}
+
+FolderPlan plan(const RunOptions& options) {
+  FolderPlan plan = folder_plan(options, {});
+  plan.writes = [](const std::string& name) { return name == kNumbers || name == kPreset; };
+  plan.replaces = [](const std::string&) { return false; };
+  return plan;
+}
+
+int not_reached(const FifoSizing& sizing, CommandContext& context) {
+  if (sizing.deep.done) {
+    context.err << fmt::format(
+        "parallax: error: --rate {} is not reached: with deep FIFOs the machine has {}\n", sizing.goal.rate,
+        quantity_text(sizing.deep.period.rate(), "frames/s"));
+  } else {
+    context.err << fmt::format("parallax: error: with deep FIFOs, too, the machine is stuck: {}\n",
+                               sizing.deep.message);
+  }
+  return kNotAsExpected;
+}
+
+}  // namespace
+
+int fifos(const FifosOptions& options, CommandContext& context) {
+  const FifoGoal goal = goal_of(options);
+  check_options(options.run);
+  const Interruption interruption;
+  const auto interrupted = [&] { return interruption.requested(); };
+  Notes notes(context);
+  EvaluationInputs inputs(options.run);
+  const Configuration configuration = load_configuration(options.run.configuration, preset_folders());
+  EvaluationInput input =
+      inputs.prepare(configuration.machine, [&](const std::string& line) { notes(line); });
+  const std::int64_t frames = frames_of(options.run, configuration.machine, input);
+  input.timing_frames = frames;
+  const std::string command = context.command_line.text();
+  std::optional<OutputFolder> folder;
+  if (!options.run.out.empty()) folder.emplace(options.run.out, plan(options.run));
+  TrialPool pool(options.run.configuration, input, context, interruption);
+  std::optional<std::vector<MachineFifo>> fifos = machine_fifos(configuration.machine, input, interrupted);
+  std::size_t runs = 0;
+  FifoSizing sizing;
+  try {
+    if (!fifos) throw TrialsEnded();
+    FifoSizer sizer(std::move(*fifos), [&](const std::vector<std::vector<std::string>>& all) {
+      std::vector<Variant> variants;
+      for (const std::vector<std::string>& assignments : all) variants.push_back({assignments});
+      return pool.evaluate(variants, [&runs] { ++runs; });
+    });
+    sizing = sizer.size(goal);
+  } catch (const TrialsEnded&) {
+    return interrupted_after(fmt::format("{} run{}", runs, runs == 1 ? "" : "s"), context, interruption);
+  }
+  if (sizing.found.depths.empty()) return not_reached(sizing, context);
+  const nlohmann::ordered_json tree = to_json(sizing, frames, command);
+  if (folder) {
+    folder->write(kNumbers, json_text(tree, 2) + "\n");
+    folder->write(kPreset, depths_preset(sizing, configuration, command));
+    folder->publish();
+  }
+  if (options.run.json) {
+    context.out << json_text(tree, 2) << '\n';
+  } else if (context.verbosity != Verbosity::kQuiet) {
+    context.out << to_text(sizing, frames);
+    if (folder) {
+      context.out << fmt::format("results             {}\npreset              {}\n", folder->path().string(),
+                                 (folder->path() / kPreset).string());
+    }
+  }
+  return 0;
+}
+
+}  // namespace parallax
