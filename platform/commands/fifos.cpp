@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "platform/commands/command_context.hpp"
@@ -50,6 +51,7 @@ FifoGoal goal_of(const FifosOptions& options) {
   if (!(tolerance >= 0 && tolerance <= 100))
     throw UserError(fmt::format("--tolerance is {}, allowed is 0 to 100 %", tolerance));
   goal.tolerance = tolerance / 100;
+  goal.front = options.front;
   return goal;
 }
 
@@ -62,6 +64,23 @@ std::int64_t frames_of(const RunOptions& options, const MachineConfig& config, c
                                 *options.timing_frames, usual));
   }
   return *options.timing_frames;
+}
+
+// The first rows of a map.
+EncodedMap top_of(const EncodedMap& map, int rows) {
+  EncodedMap top = map;
+  top.height = rows;
+  top.row_bytes.resize(rows);
+  top.bytes.resize(std::accumulate(top.row_bytes.begin(), top.row_bytes.end(), std::size_t{0}));
+  return top;
+}
+
+// Rows that show what FIFOs between stages have to hold: the window of the rectification and some more.
+int few_rows(const MachineConfig& config, int height) {
+  constexpr int kMore = 16;
+  const int granularity = config.image.granularity().height;
+  const int rows = (config.rectification.range.window + kMore + granularity - 1) / granularity * granularity;
+  return 2 * rows <= height ? rows : height;
 }
 
 FolderPlan plan(const RunOptions& options) {
@@ -100,18 +119,40 @@ int fifos(const FifosOptions& options, CommandContext& context) {
   const std::string command = context.command_line.text();
   std::optional<OutputFolder> folder;
   if (!options.run.out.empty()) folder.emplace(options.run.out, plan(options.run));
-  TrialPool pool(options.run.configuration, input, context, interruption);
+
   std::optional<std::vector<MachineFifo>> fifos = machine_fifos(configuration.machine, input, interrupted);
   std::size_t runs = 0;
   FifoSizing sizing;
   try {
     if (!fifos) throw TrialsEnded();
-    FifoSizer sizer(std::move(*fifos), [&](const std::vector<std::vector<std::string>>& all) {
-      std::vector<Variant> variants;
-      for (const std::vector<std::string>& assignments : all) variants.push_back({assignments});
-      return pool.evaluate(variants, [&runs] { ++runs; });
-    });
-    sizing = sizer.size(goal);
+    const auto size = [&](EvaluationInput of, const Depths& guess) {
+      std::optional<TrialPool> pool;
+      FifoSizer sizer(*fifos,
+                      [&](const std::vector<std::vector<std::string>>& all, std::int64_t longest_frame_ps) {
+                        if (!pool || of.longest_frame_ps != longest_frame_ps) {
+                          of.longest_frame_ps = longest_frame_ps;
+                          pool.emplace(options.run.configuration, of, context, interruption);
+                        }
+                        std::vector<Variant> variants;
+                        for (const std::vector<std::string>& assignments : all)
+                          variants.push_back({assignments});
+                        return pool->evaluate(variants, [&runs] { ++runs; });
+                      });
+      FifoGoal wanted = goal;
+      wanted.front = goal.front && of.height == input.height;
+      return sizer.size(wanted, guess);
+    };
+    Depths guess;
+    const int rows = few_rows(configuration.machine, input.map->height);
+    if (goal.kind == FifoGoal::Kind::kFullRate && rows < input.map->height) {
+      const EncodedMap top = top_of(*input.map, rows);
+      EvaluationInput fewer = input;
+      fewer.height = rows;
+      fewer.map = &top;
+      guess = size(fewer, {}).found.depths;
+      runs = 0;
+    }
+    sizing = size(input, guess);
   } catch (const TrialsEnded&) {
     return interrupted_after(fmt::format("{} run{}", runs, runs == 1 ? "" : "s"), context, interruption);
   }

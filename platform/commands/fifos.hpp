@@ -15,6 +15,7 @@ struct FifosOptions {
   RunOptions run;                   ///< machine and input; --out, --json
   std::string goal = "full-rate";   ///< or "deadlock-free"
   std::optional<double> rate;       ///< frames/s, another goal
+  bool front = false;               ///< points between fast and small, too
   std::optional<double> tolerance;  ///< % of a frame, of full-rate; none: kUsualTolerance
 
   /// Less than the last digit of a rate that is printed; the phases of the memory move it by a third of that.

@@ -32,6 +32,10 @@ void add_fifos_command(CLI::App& app, CommandContext& context) {
       ->type_name("PERCENT")
       ->group("Goal");
   command
+      .add_flag("--front", options->front,
+                "Also what machines with less memory do, down to the smallest without deadlock")
+      ->group("Goal");
+  command
       .add_option("--timing-frames", options->run.timing_frames,
                   "Number of frames of each run; if not given: so many that all buffers have been full, and "
                   "three more")

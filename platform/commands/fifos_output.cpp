@@ -31,7 +31,7 @@ std::string outcome(const SizedRun& run) {
 Json number(double value, const char* unit) { return {{"value", value}, {"unit", unit}}; }
 
 Json to_json(const SizedRun& run, const FifoSizing& sizing) {
-  Json tree{{"status", run.done ? "done" : "stuck"}};
+  Json tree{{"status", run.done ? "done" : run.too_slow ? "too slow" : "stuck"}};
   if (run.done) {
     tree["frame_rate"] = number(run.period.rate(), "frames/s");
     tree["picoseconds"] = run.period.picoseconds;
@@ -84,13 +84,18 @@ std::string to_text(const FifoSizing& sizing, std::int64_t frames) {
                       "", sizing.bits(sizing.now.depths), sizing.bits(sizing.found.depths));
   text += fmt::format("{:20}{}\n", "now", outcome(sizing.now));
   text += fmt::format("{:20}{}\n", "smallest", outcome(sizing.found));
-  const auto stuck =
-      std::count_if(sizing.proof.begin(), sizing.proof.end(), [](const SizedRun& run) { return !run.done; });
+  const auto stuck = std::count_if(sizing.proof.begin(), sizing.proof.end(),
+                                   [](const SizedRun& run) { return !run.done && !run.too_slow; });
   const auto slow = static_cast<std::ptrdiff_t>(sizing.proof.size()) - stuck;
   text += fmt::format(
       "{:20}run with one token less in each of {} FIFOs, alone: {} times too slow, {} times stuck\n", "proof",
       sizing.proof.size(), slow, stuck);
   text += fmt::format("{:20}{} of {} frames\n", "runs", sizing.runs, frames);
+  const char* head = "front";
+  for (const SizedRun& point : sizing.front) {
+    text += fmt::format("{:20}{:>8} bits: {}\n", head, sizing.bits(point.depths), outcome(point));
+    head = "";
+  }
   return text;
 }
 
@@ -118,6 +123,13 @@ Json to_json(const FifoSizing& sizing, std::int64_t frames, const std::string& c
   tree["now"] = to_json(sizing.now, sizing);
   tree["deep"] = to_json(sizing.deep, sizing);
   tree["smallest"] = to_json(sizing.found, sizing);
+  if (sizing.goal.front) tree["front"] = Json::array();
+  for (const SizedRun& point : sizing.front) {
+    Json entry = to_json(point, sizing);
+    for (std::size_t i = 0; i < point.depths.size(); ++i)
+      entry["depths"][sizing.fifos[i].stream] = point.depths[i];
+    tree["front"].push_back(std::move(entry));
+  }
   Json& proof = tree["proof"] = Json::array();
   for (std::size_t i = 0; i < sizing.proof.size(); ++i) {
     Json entry{{"stream", sizing.fifos[sizing.less[i]].stream},

@@ -52,19 +52,26 @@ std::int64_t DepthSearch::saving(const Group& group) const {
                          });
 }
 
-// First the guess, then the middle of what is left; the depth itself when nothing is.
+// First the guess; if that fails, down from the depth, which may be the least, in steps that grow as long as
+// they are kept; then the middle of what is left. The depth itself when nothing is.
 std::int64_t DepthSearch::next(std::size_t fifo) const {
   const State& state = states_[fifo];
   const std::int64_t first = fifos_[fifo].first;
   if (!state.tried && first > state.failed && first < state.depth) return first;
-  return state.depth <= state.failed + 1 ? state.depth : (state.failed + state.depth) / 2;
+  if (state.depth <= state.failed + 1) return state.depth;
+  const std::int64_t middle = (state.failed + state.depth) / 2;
+  return state.step > 0 && is_far(fifo) ? std::max(middle, state.depth - state.step) : middle;
+}
+
+bool DepthSearch::is_far(std::size_t fifo) const {
+  return states_[fifo].reopened || states_[fifo].depth > fifos_[fifo].first;
 }
 
 // FIFOs with something to try, what saves most first: those that are deeper than their guess, or the others.
 DepthSearch::Group DepthSearch::open(bool far) const {
   Group group;
   for (std::size_t i = 0; i < fifos_.size(); ++i) {
-    if (next(i) < states_[i].depth && (states_[i].depth > fifos_[i].first) == far) group.push_back(i);
+    if (next(i) < states_[i].depth && is_far(i) == far) group.push_back(i);
   }
   std::stable_sort(group.begin(), group.end(),
                    [this](std::size_t a, std::size_t b) { return saving({a}) > saving({b}); });
@@ -75,6 +82,7 @@ void DepthSearch::take(const Depths& depths, const Judgement& judgement) {
   sure_ = depths;
   for (std::size_t i = 0; i < states_.size(); ++i) {
     State& state = states_[i];
+    if (state.tried && depths[i] < state.depth) state.step *= 2;
     state.tried = state.tried || depths[i] <= fifos_[i].first;
     state.depth = depths[i];
     if (tightens_) state.depth = std::min(state.depth, std::max(judgement.enough[i], state.failed + 1));
@@ -84,6 +92,7 @@ void DepthSearch::take(const Depths& depths, const Judgement& judgement) {
 void DepthSearch::fail(std::size_t fifo) {
   State& state = states_[fifo];
   state.failed = next(fifo);
+  if (state.tried) state.step = 0;
   state.tried = true;
 }
 
@@ -92,38 +101,47 @@ void DepthSearch::lower(bool far) {
     for (Group group = open(true); !group.empty(); group = open(true)) settle(group, true);
     return;
   }
-  // One by one, the proof tries them.
+  // Those that fail together the proof tries one by one.
   if (const Group group = open(false); !group.empty()) settle(group, false);
+}
+
+// Halves of groups that failed; of few FIFOs each alone, if that is wanted.
+std::vector<DepthSearch::Group> DepthSearch::split(const std::vector<Group>& groups, bool single) const {
+  std::vector<Group> parts;
+  for (const Group& group : groups) {
+    if (group.size() <= kFew) {
+      for (const std::size_t fifo : group) {
+        if (single && next(fifo) < states_[fifo].depth) parts.push_back({fifo});
+      }
+    } else {
+      const auto middle = group.begin() + static_cast<std::ptrdiff_t>(group.size() / 2);
+      parts.emplace_back(group.begin(), middle);
+      parts.emplace_back(middle, group.end());
+    }
+  }
+  return parts;
 }
 
 // Finds out which of a group can go where they are to be tried next. `single`: down to each alone.
 void DepthSearch::settle(const Group& group, bool single) {
   std::vector<Group> groups{group};
+  if (single && group.size() <= kFew) groups = split(groups, true);
   while (!groups.empty()) {
     std::vector<Depths> tried;
     for (const Group& each : groups) tried.push_back(lowered(each));
     const std::vector<Judgement> judged = judge_(tried);
     std::vector<Group> good, bad;
-    for (std::size_t i = 0; i < groups.size(); ++i) (judged[i].kept ? good : bad).push_back(groups[i]);
-    std::vector<std::pair<std::size_t, std::int64_t>> failed;
-    for (const Group& each : bad) {
-      if (each.size() == 1) fail(each.front());
-    }
-    bad.erase(std::remove_if(bad.begin(), bad.end(), [](const Group& each) { return each.size() == 1; }),
-              bad.end());
-    for (Group& each : adopt(good)) bad.push_back(std::move(each));
-    groups.clear();
-    for (const Group& each : bad) {
-      if (each.size() <= kFew) {
-        for (const std::size_t fifo : each) {
-          if (single && next(fifo) < states_[fifo].depth) groups.push_back({fifo});
-        }
-        continue;
+    for (std::size_t i = 0; i < groups.size(); ++i) {
+      if (judged[i].kept) {
+        good.push_back(groups[i]);
+      } else if (groups[i].size() == 1) {
+        fail(groups[i].front());
+      } else {
+        bad.push_back(groups[i]);
       }
-      const auto middle = each.begin() + static_cast<std::ptrdiff_t>(each.size() / 2);
-      groups.emplace_back(each.begin(), middle);
-      groups.emplace_back(middle, each.end());
     }
+    for (Group& each : adopt(good)) bad.push_back(std::move(each));
+    groups = split(bad, single);
   }
 }
 
@@ -171,7 +189,8 @@ bool DepthSearch::proven() {
   for (std::size_t i = 0; i < lowered.size(); ++i) {
     State& state = states_[lowered[i]];
     if (judged[i + 1].kept) {
-      state = {state.depth, 0, true};
+      const std::int64_t least = fifos_[lowered[i]].least;
+      state = {state.depth, state.depth > least ? least - 1 : 0, true, 1, true};
       good.push_back({lowered[i]});
     } else {
       state.failed = state.depth - 1;

@@ -51,16 +51,20 @@ class DepthSearch {
     std::int64_t depth = 1;   // reaches the goal, with those of all others
     std::int64_t failed = 0;  // does not, as far as is known
     bool tried = false;       // `first` was
+    std::int64_t step = 1;    // down from the depth, next time; 0: to the middle of what is left
+    bool reopened = false;    // by the proof
   };
 
   Depths depths() const;
   Depths lowered(const Group& group) const;
   std::int64_t saving(const Group& group) const;
   std::int64_t next(std::size_t fifo) const;
+  bool is_far(std::size_t fifo) const;
   Group open(bool far) const;
   void take(const Depths& depths, const Judgement& judgement);
   void fail(std::size_t fifo);
   void lower(bool far);
+  std::vector<Group> split(const std::vector<Group>& groups, bool single) const;
   void settle(const Group& group, bool single);
   std::vector<Group> adopt(const std::vector<Group>& good);
   bool proven();

@@ -24,6 +24,21 @@ namespace {
 using Status = EvaluationResult::Status;
 using State = WorkerProcess::State;
 
+constexpr double kNoPhase = 1e-4;  // of a frame: more than the phases of the memory change it
+
+// Picoseconds that the core took for a frame whose results are in memory; 0 where it may have waited for it.
+double taken(const Machine& machine, std::int64_t frame) {
+  const FrameTimes& times = machine.times()[frame];
+  const SoftwareConfig& software = machine.config().software;
+  if (!software.queue_frames) {  // the next one cannot be started before the software has responded
+    const double response = 1e3 * static_cast<double>(software.response_ns);
+    return (times.results_in_memory - times.core_started).to_seconds() * 1e12 + response;
+  }
+  if (frame == 0) return 0;
+  const sc_core::sc_time& before = machine.times()[frame - 1].results_in_memory;
+  return times.in_memory > before ? 0 : (times.results_in_memory - before).to_seconds() * 1e12;
+}
+
 // In the process that is for this simulation.
 EvaluationResult simulate(const MachineConfig& config, const EvaluationInput& input) {
   const auto began = std::chrono::steady_clock::now();
@@ -39,11 +54,20 @@ EvaluationResult simulate(const MachineConfig& config, const EvaluationInput& in
   machine_input.least_frames = length.least;
   machine_input.enough = frames_are_enough;
   machine_input.timing_only = true;
+  const Machine* made = nullptr;
+  bool too_slow = false;
+  machine_input.step = [&](std::int64_t frame, FrameStep step) {
+    if (input.longest_frame_ps == 0 || step != FrameStep::kResultsInMemory || too_slow) return;
+    too_slow = taken(*made, frame) > (1 + kNoPhase) * static_cast<double>(input.longest_frame_ps);
+    if (too_slow) sc_core::sc_stop();
+  };
   const Machine machine("machine", config, machine_input);
+  made = &machine;
   shortest_frame_time(machine);
   do {
     simulate_for(sc_core::sc_time(1000, sc_core::SC_SEC));
   } while (sc_core::sc_get_status() != sc_core::SC_STOPPED && sc_core::sc_pending_activity());
+  if (too_slow) return not_measured(Status::kTooSlow, "a frame takes the core longer");
   if (!machine.finished()) return not_measured(Status::kStuck, message(find_deadlock(machine)));
   RunTotals totals;
   totals.command = input.command;

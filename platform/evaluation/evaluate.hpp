@@ -23,8 +23,13 @@ struct EvaluationInput {
   const EncodedMap* map = nullptr;            ///< of the size that is processed; must outlive its use
   std::int64_t frames = 1;                    ///< of the input
   std::optional<std::int64_t> timing_frames;  ///< least number to simulate (run_length)
-  std::string command;                        ///< echoed in the metrics
-  std::optional<std::uint64_t> scene_seed;    ///< likewise, when the built-in scene is the input
+  /// 0, or so many picoseconds: the run is over, and too slow, as soon as the core takes longer for a frame.
+  /// Where software queues frames, that counts of those that were in memory when the core was done with the
+  /// one before; where it does not, of every frame, with the software's response. By 0.01 % longer, so that
+  /// the phases of the memory do not decide.
+  std::int64_t longest_frame_ps = 0;
+  std::string command;                      ///< echoed in the metrics
+  std::optional<std::uint64_t> scene_seed;  ///< likewise, when the built-in scene is the input
 };
 
 /// The time of a machine on an input, without images. Never throws for what a configuration can bring about:

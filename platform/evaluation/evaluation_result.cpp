@@ -16,8 +16,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Status = EvaluationResult::Status;
 
-constexpr std::array<Status, 5> kStatuses{Status::kDone, Status::kInvalid, Status::kStuck, Status::kFailed,
-                                          Status::kInterrupted};
+constexpr std::array<Status, 6> kStatuses{Status::kDone,   Status::kInvalid,     Status::kStuck,
+                                          Status::kFailed, Status::kInterrupted, Status::kTooSlow};
 
 }  // namespace
 
@@ -69,6 +69,8 @@ const char* name(Status status) {
       return "failed";
     case Status::kInterrupted:
       return "interrupted";
+    case Status::kTooSlow:
+      return "too slow";
   }
   return "";
 }

@@ -18,6 +18,7 @@ struct EvaluationResult {
     kStuck,        ///< the machine came to a halt before the host had all frames
     kFailed,       ///< a fault of the program or of this computer
     kInterrupted,  ///< the caller gave up on it
+    kTooSlow,      ///< a frame took longer than asked for (EvaluationInput::longest_frame_ps)
   };
   /// Means of the steady state, ms.
   struct Latencies {
@@ -55,7 +56,7 @@ EvaluationResult not_measured(EvaluationResult::Status status, std::string messa
 /// Of one whose process died; by this signal, 0: by itself.
 EvaluationResult without_result(int signal);
 
-/// "done", "invalid", "stuck", "failed", "interrupted".
+/// "done", "invalid", "stuck", "failed", "interrupted", "too slow".
 const char* name(EvaluationResult::Status status);
 
 /// What timing.json holds.

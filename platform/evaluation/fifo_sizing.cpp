@@ -2,6 +2,7 @@
 #include "platform/evaluation/fifo_sizing.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <utility>
 
@@ -13,6 +14,8 @@ namespace parallax {
 namespace {
 
 using Status = EvaluationResult::Status;
+
+constexpr std::int64_t kFrontParts = 4;  // of the way between two vectors of depths
 
 template <class Member>
 Depths depths_of(const std::vector<MachineFifo>& fifos, const Member& member) {
@@ -33,7 +36,7 @@ FifoSizer::FifoSizer(std::vector<MachineFifo> fifos, Evaluate evaluate) : evalua
   sizing_.fifos = std::move(fifos);
 }
 
-FifoSizing FifoSizer::size(const FifoGoal& goal) {
+FifoSizing FifoSizer::size(const FifoGoal& goal, const Depths& guess) {
   sizing_.goal = goal;
   const Depths from = start(goal);
   if (from.empty()) return sizing_;
@@ -42,7 +45,9 @@ FifoSizing FifoSizer::size(const FifoGoal& goal) {
     const MachineFifo& fifo = sizing_.fifos[i];
     const std::int64_t a_token_a_cycle = std::max<std::int64_t>(1, fifo.write_to_read + fifo.read_to_write);
     const std::int64_t first = goal.kind == FifoGoal::Kind::kDeadlockFree ? 1 : a_token_a_cycle;
-    ranges.push_back({fifo.width, fifo.deadlock_free, std::max(fifo.deadlock_free, first), from[i]});
+    // Less than a guess is the proof's business.
+    const std::int64_t least = guess.empty() ? fifo.deadlock_free : guess[i];
+    ranges.push_back({fifo.width, least, guess.empty() ? std::max(least, first) : least, from[i]});
   }
   DepthSearch search(ranges, [this](const std::vector<Depths>& all) {
     std::vector<Judgement> judged;
@@ -54,7 +59,39 @@ FifoSizing FifoSizer::size(const FifoGoal& goal) {
   });
   sizing_.found = run({search.find()}).front();
   prove();
+  if (goal.front) sizing_.front = front();
   return sizing_;
+}
+
+// Machines on the way from the depths found to those that only avoid a deadlock: those than which no other
+// of them is as fast, as quick and as small.
+std::vector<SizedRun> FifoSizer::front() {
+  longest_frame_ps_ = 0;
+  std::vector<Depths> all{sizing_.now.depths};
+  for (std::int64_t part = kFrontParts; part >= 0; --part) {
+    Depths depths;
+    for (std::size_t i = 0; i < sizing_.fifos.size(); ++i) {
+      const std::int64_t found = sizing_.found.depths[i];
+      const std::int64_t least = std::min(found, sizing_.fifos[i].deadlock_free);
+      depths.push_back(least + (found - least) * part / kFrontParts);
+    }
+    all.push_back(std::move(depths));
+  }
+  std::vector<SizedRun> points;
+  for (const SizedRun& each : run(all)) {
+    const auto same = [&](const SizedRun& other) { return other.depths == each.depths; };
+    if (each.done && std::none_of(points.begin(), points.end(), same)) points.push_back(each);
+  }
+  const auto beaten = [&](const SizedRun& point, const SizedRun& by) {
+    return by.depths != point.depths && by.period.keeps(point.period, 0) && by.latency <= point.latency &&
+           sizing_.bits(by.depths) <= sizing_.bits(point.depths);
+  };
+  std::vector<SizedRun> front;
+  for (const SizedRun& point : points) {
+    if (std::none_of(points.begin(), points.end(), [&](const SizedRun& by) { return beaten(point, by); }))
+      front.push_back(point);
+  }
+  return front;
 }
 
 // Depths that reach the goal; none: none do. The high-water marks of a run change nothing in it.
@@ -70,12 +107,21 @@ Depths FifoSizer::start(const FifoGoal& goal) {
   sizing_.now = runs[0];
   sizing_.deep = runs[1];
   if (goal.kind == FifoGoal::Kind::kDeadlockFree && runs[2].done) return free;
+  longest_frame_ps_ = longest_frame(goal);
   for (const SizedRun& each : {runs[0], runs[1]}) {
     if (!reaches(goal, each)) continue;
     const Depths less = enough(each);
     return reaches(goal, run({less}).front()) ? less : each.depths;
   }
   return {};
+}
+
+// Picoseconds; 0: any.
+std::int64_t FifoSizer::longest_frame(const FifoGoal& goal) const {
+  if (goal.kind == FifoGoal::Kind::kDeadlockFree) return 0;
+  if (goal.kind == FifoGoal::Kind::kRate) return static_cast<std::int64_t>(std::ceil(1e12 / goal.rate));
+  if (!sizing_.deep.done) return 0;
+  return static_cast<std::int64_t>(std::ceil(1e12 / sizing_.deep.period.rate() * (1 + goal.tolerance)));
 }
 
 void FifoSizer::prove() {
@@ -113,8 +159,9 @@ Depths FifoSizer::enough(const SizedRun& run) const {
 std::vector<SizedRun> FifoSizer::run(const std::vector<Depths>& all) {
   std::vector<Depths> fresh;
   for (const Depths& depths : all) {
-    if (known_.count(depths) == 0 && std::find(fresh.begin(), fresh.end(), depths) == fresh.end())
-      fresh.push_back(depths);
+    const auto known = known_.find(depths);
+    const bool is_known = known != known_.end() && (!known->second.too_slow || longest_frame_ps_ != 0);
+    if (!is_known && std::find(fresh.begin(), fresh.end(), depths) == fresh.end()) fresh.push_back(depths);
   }
   std::vector<std::vector<std::string>> assignments;
   for (const Depths& depths : fresh) {
@@ -123,10 +170,10 @@ std::vector<SizedRun> FifoSizer::run(const std::vector<Depths>& all) {
       assignments.back().push_back(sizing_.fifos[i].key() + "=" + std::to_string(depths[i]));
   }
   const std::vector<EvaluationResult> results =
-      fresh.empty() ? std::vector<EvaluationResult>{} : evaluate_(assignments);
+      fresh.empty() ? std::vector<EvaluationResult>{} : evaluate_(assignments, longest_frame_ps_);
   if (results.size() < fresh.size()) throw TrialsEnded();
   sizing_.runs += fresh.size();
-  for (std::size_t i = 0; i < fresh.size(); ++i) known_.emplace(fresh[i], sized(fresh[i], results[i]));
+  for (std::size_t i = 0; i < fresh.size(); ++i) known_[fresh[i]] = sized(fresh[i], results[i]);
   std::vector<SizedRun> runs;
   for (const Depths& depths : all) runs.push_back(known_.at(depths));
   return runs;
@@ -138,6 +185,7 @@ SizedRun FifoSizer::sized(const Depths& depths, const EvaluationResult& result) 
   if (result.status == Status::kInvalid) throw UserError(result.message);
   if (result.status == Status::kFailed) throw std::runtime_error(result.message);
   if (!result.done()) {
+    run.too_slow = result.status == Status::kTooSlow;
     run.message = result.advice();
     return run;
   }
