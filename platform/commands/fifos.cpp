@@ -102,13 +102,80 @@ int not_reached(const FifoSizing& sizing, CommandContext& context) {
   return kNotAsExpected;
 }
 
+// The machine on its input, sized.
+class Sizing {
+ public:
+  Sizing(const FifosOptions& options, const EvaluationInput& input, CommandContext& context,
+         const Interruption& interruption)
+      : options_(options), input_(input), context_(context), interruption_(interruption) {}
+
+  /// Throws TrialsEnded.
+  FifoSizing find(const MachineConfig& config, const FifoGoal& goal) {
+    const auto interrupted = [this] { return interruption_.requested(); };
+    const std::optional<std::vector<MachineFifo>> fifos = machine_fifos(config, input_, interrupted);
+    if (!fifos) throw TrialsEnded();
+    fifos_ = *fifos;
+    const Depths guessed = goal.kind == FifoGoal::Kind::kDeadlockFree ? Depths{} : guess(config, goal);
+    return size(input_, goal, guessed);
+  }
+  /// Of the machine, so far.
+  std::size_t runs() const { return runs_; }
+
+ private:
+  FifoSizing size(EvaluationInput input, const FifoGoal& goal, const Depths& guess) {
+    std::optional<TrialPool> pool;
+    FifoSizer sizer(fifos_, [&](const std::vector<std::vector<std::string>>& all, std::int64_t longest) {
+      if (!pool || input.longest_frame_ps != longest) {
+        input.longest_frame_ps = longest;
+        pool.emplace(options_.run.configuration, input, context_, interruption_);
+      }
+      std::vector<Variant> variants;
+      for (const std::vector<std::string>& assignments : all) variants.push_back({assignments});
+      return pool->evaluate(variants, [this] { ++runs_; });
+    });
+    return sizer.size(goal, guess);
+  }
+
+  // Shallow FIFOs keep the simulation from going over many tokens at once, so that few rows or frames are
+  // looked at first. What limits decides which: a core shows it in few rows, what waits for something slower
+  // in how long it takes for a frame.
+  Depths guess(const MachineConfig& config, const FifoGoal& goal) {
+    TrialPool pool(options_.run.configuration, input_, context_, interruption_);
+    const std::vector<EvaluationResult> deep = pool.evaluate({{assignments(fifos_, deep_depths(fifos_))}});
+    if (deep.empty()) throw TrialsEnded();
+    if (!deep[0].done() || deep[0].rate < goal.rate) return {};
+    FifoGoal quick = goal;
+    quick.front = false;
+    EvaluationInput less = input_;
+    if (goal.kind == FifoGoal::Kind::kRate || deep[0].limit.part != "core") {
+      quick.by_core = true;
+      quick.kind = FifoGoal::Kind::kRate;
+      if (goal.kind == FifoGoal::Kind::kFullRate) quick.rate = deep[0].rate / (1 + goal.tolerance);
+      less.timing_frames = config.software.queue_frames ? 3 : 2;
+      return size(less, quick, {}).found.depths;
+    }
+    const int rows = few_rows(config, input_.map->height);
+    if (rows == input_.map->height) return {};
+    const EncodedMap top = top_of(*input_.map, rows);
+    less.height = rows;
+    less.map = &top;
+    return size(less, quick, {}).found.depths;
+  }
+
+  const FifosOptions& options_;
+  const EvaluationInput input_;
+  CommandContext& context_;
+  const Interruption& interruption_;
+  std::vector<MachineFifo> fifos_;
+  std::size_t runs_ = 0;
+};
+
 }  // namespace
 
 int fifos(const FifosOptions& options, CommandContext& context) {
   const FifoGoal goal = goal_of(options);
   check_options(options.run);
   const Interruption interruption;
-  const auto interrupted = [&] { return interruption.requested(); };
   Notes notes(context);
   EvaluationInputs inputs(options.run);
   const Configuration configuration = load_configuration(options.run.configuration, preset_folders());
@@ -120,41 +187,13 @@ int fifos(const FifosOptions& options, CommandContext& context) {
   std::optional<OutputFolder> folder;
   if (!options.run.out.empty()) folder.emplace(options.run.out, plan(options.run));
 
-  std::optional<std::vector<MachineFifo>> fifos = machine_fifos(configuration.machine, input, interrupted);
-  std::size_t runs = 0;
+  Sizing search(options, input, context, interruption);
   FifoSizing sizing;
   try {
-    if (!fifos) throw TrialsEnded();
-    const auto size = [&](EvaluationInput of, const Depths& guess) {
-      std::optional<TrialPool> pool;
-      FifoSizer sizer(*fifos,
-                      [&](const std::vector<std::vector<std::string>>& all, std::int64_t longest_frame_ps) {
-                        if (!pool || of.longest_frame_ps != longest_frame_ps) {
-                          of.longest_frame_ps = longest_frame_ps;
-                          pool.emplace(options.run.configuration, of, context, interruption);
-                        }
-                        std::vector<Variant> variants;
-                        for (const std::vector<std::string>& assignments : all)
-                          variants.push_back({assignments});
-                        return pool->evaluate(variants, [&runs] { ++runs; });
-                      });
-      FifoGoal wanted = goal;
-      wanted.front = goal.front && of.height == input.height;
-      return sizer.size(wanted, guess);
-    };
-    Depths guess;
-    const int rows = few_rows(configuration.machine, input.map->height);
-    if (goal.kind == FifoGoal::Kind::kFullRate && rows < input.map->height) {
-      const EncodedMap top = top_of(*input.map, rows);
-      EvaluationInput fewer = input;
-      fewer.height = rows;
-      fewer.map = &top;
-      guess = size(fewer, {}).found.depths;
-      runs = 0;
-    }
-    sizing = size(input, guess);
+    sizing = search.find(configuration.machine, goal);
   } catch (const TrialsEnded&) {
-    return interrupted_after(fmt::format("{} run{}", runs, runs == 1 ? "" : "s"), context, interruption);
+    return interrupted_after(fmt::format("{} run{}", search.runs(), search.runs() == 1 ? "" : "s"), context,
+                             interruption);
   }
   if (sizing.found.depths.empty()) return not_reached(sizing, context);
   const nlohmann::ordered_json tree = to_json(sizing, frames, command);

@@ -26,6 +26,18 @@ Depths depths_of(const std::vector<MachineFifo>& fifos, const Member& member) {
 
 }  // namespace
 
+Depths deep_depths(const std::vector<MachineFifo>& fifos) {
+  return depths_of(fifos,
+                   [](const MachineFifo& fifo) { return deep_enough(std::max(fifo.depth, fifo.automatic)); });
+}
+
+std::vector<std::string> assignments(const std::vector<MachineFifo>& fifos, const Depths& depths) {
+  std::vector<std::string> all;
+  for (std::size_t i = 0; i < depths.size(); ++i)
+    all.push_back(fifos[i].key() + "=" + std::to_string(depths[i]));
+  return all;
+}
+
 std::int64_t FifoSizing::bits(const Depths& depths) const {
   std::int64_t sum = 0;
   for (std::size_t i = 0; i < depths.size(); ++i) sum += depths[i] * fifos[i].width;
@@ -97,9 +109,7 @@ std::vector<SizedRun> FifoSizer::front() {
 // Depths that reach the goal; none: none do. The high-water marks of a run change nothing in it.
 Depths FifoSizer::start(const FifoGoal& goal) {
   const Depths now = depths_of(sizing_.fifos, [](const MachineFifo& fifo) { return fifo.depth; });
-  const Depths deep = depths_of(sizing_.fifos, [](const MachineFifo& fifo) {
-    return deep_enough(std::max(fifo.depth, fifo.automatic));
-  });
+  const Depths deep = deep_depths(sizing_.fifos);
   const Depths free = depths_of(sizing_.fifos, [](const MachineFifo& fifo) { return fifo.deadlock_free; });
   std::vector<Depths> starts{now, deep};
   if (goal.kind == FifoGoal::Kind::kDeadlockFree) starts.push_back(free);
@@ -139,7 +149,7 @@ void FifoSizer::prove() {
 }
 
 bool FifoSizer::reaches(const FifoGoal& goal, const SizedRun& run) const {
-  if (!run.done || goal.kind == FifoGoal::Kind::kDeadlockFree) return run.done;
+  if (!run.done || goal.by_core || goal.kind == FifoGoal::Kind::kDeadlockFree) return run.done;
   if (goal.kind == FifoGoal::Kind::kRate) return run.period.rate() >= goal.rate;
   return sizing_.deep.done && run.period.keeps(sizing_.deep.period, goal.tolerance);
 }
@@ -163,14 +173,10 @@ std::vector<SizedRun> FifoSizer::run(const std::vector<Depths>& all) {
     const bool is_known = known != known_.end() && (!known->second.too_slow || longest_frame_ps_ != 0);
     if (!is_known && std::find(fresh.begin(), fresh.end(), depths) == fresh.end()) fresh.push_back(depths);
   }
-  std::vector<std::vector<std::string>> assignments;
-  for (const Depths& depths : fresh) {
-    assignments.emplace_back();
-    for (std::size_t i = 0; i < depths.size(); ++i)
-      assignments.back().push_back(sizing_.fifos[i].key() + "=" + std::to_string(depths[i]));
-  }
+  std::vector<std::vector<std::string>> keys;
+  for (const Depths& depths : fresh) keys.push_back(assignments(sizing_.fifos, depths));
   const std::vector<EvaluationResult> results =
-      fresh.empty() ? std::vector<EvaluationResult>{} : evaluate_(assignments, longest_frame_ps_);
+      fresh.empty() ? std::vector<EvaluationResult>{} : evaluate_(keys, longest_frame_ps_);
   if (results.size() < fresh.size()) throw TrialsEnded();
   sizing_.runs += fresh.size();
   for (std::size_t i = 0; i < fresh.size(); ++i) known_[fresh[i]] = sized(fresh[i], results[i]);

@@ -23,7 +23,9 @@ struct FifoGoal {
   Kind kind = Kind::kFullRate;
   double rate = 0;       ///< frames/s, of kRate
   double tolerance = 0;  ///< of kFullRate: the share by which a frame may take longer
-  bool front = false;    ///< FifoSizing::front is wanted
+  /// Whatever comes to its end reaches it: of short runs that end early when the core is too slow for it.
+  bool by_core = false;
+  bool front = false;  ///< FifoSizing::front is wanted
 };
 
 /// A machine with certain depths.
@@ -55,6 +57,12 @@ struct FifoSizing {
 
   std::int64_t bits(const Depths& depths) const;
 };
+
+/// Depths that no longer matter: each many times what is configured, or derived.
+Depths deep_depths(const std::vector<MachineFifo>& fifos);
+
+/// "key=value" of each.
+std::vector<std::string> assignments(const std::vector<MachineFifo>& fifos, const Depths& depths);
 
 /// The smallest depths of a machine's FIFOs with which it reaches the goal (DepthSearch).
 ///
