@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sizes of a machine's FIFOs against all depths there are.
+// Sizes of a machine's FIFOs, and the runs that they are found by.
 #include "platform/evaluation/fifo_sizing.hpp"
 
 #include <gtest/gtest.h>
-
-#include <algorithm>
 
 #include "platform/config/preset.hpp"
 #include "platform/evaluation/evaluation_pool.hpp"
@@ -34,17 +32,6 @@ class Sizing : public testing::Test {
   }
   std::vector<MachineFifo> fifos() const {
     return machine_fifos(configuration({}).machine, input_, kNever).value();
-  }
-  // Those of these names, in this order.
-  std::vector<MachineFifo> some(const std::vector<std::string>& names) const {
-    const std::vector<MachineFifo> all = fifos();
-    std::vector<MachineFifo> found;
-    for (const std::string& name : names) {
-      const auto fifo =
-          std::find_if(all.begin(), all.end(), [&](const MachineFifo& each) { return each.stream == name; });
-      found.push_back(*fifo);
-    }
-    return found;
   }
   std::vector<EvaluationResult> evaluate(const std::vector<std::vector<std::string>>& all,
                                          std::int64_t longest_frame_ps) const {
@@ -91,41 +78,6 @@ TEST_F(Sizing, DepthsWithoutDeadlockAreThoseOfTheModel) {
   for (const SizedRun& run : sizing.proof) {
     EXPECT_FALSE(run.done || run.too_slow);
     EXPECT_NE(run.message.find("would free it"), std::string::npos) << run.message;
-  }
-}
-
-// All depths of two FIFOs from 1 up, each a run of its own to its end.
-TEST_F(Sizing, OfAllDepthsOfTwoFifosTheSmallestAreFound_large) {
-  const std::vector<std::vector<std::string>> pairs{{"left_texture", "costs_uniqueness"},
-                                                    {"left_pixels", "left_rectified"}};
-  for (const std::vector<std::string>& names : pairs) {
-    const std::vector<MachineFifo> two = some(names);
-    FifoGoal goal;
-    goal.tolerance = 1e-5;
-    const FifoSizing sizing = size(two, goal);
-    ASSERT_EQ(sizing.found.depths.size(), 2U);
-    const std::int64_t lowest = std::max<std::int64_t>(1, sizing.found.depths[0] - 6);
-    std::vector<Depths> grid;
-    std::vector<std::vector<std::string>> assignments;
-    for (std::int64_t a = lowest; a <= sizing.found.depths[0] + 2; ++a) {
-      for (std::int64_t b = 1; b <= sizing.found.depths[1] + 2; ++b) {
-        grid.push_back({a, b});
-        assignments.push_back(
-            {two[0].key() + "=" + std::to_string(a), two[1].key() + "=" + std::to_string(b)});
-      }
-    }
-    const std::vector<EvaluationResult> results = evaluate(assignments, 0);
-    std::int64_t least = sizing.bits(sizing.deep.depths);
-    for (std::size_t i = 0; i < grid.size(); ++i) {
-      const bool reached =
-          results[i].done() && frame_period(results[i]).keeps(sizing.deep.period, goal.tolerance);
-      if (reached) least = std::min(least, sizing.bits(grid[i]));
-      if (grid[i] == sizing.found.depths) EXPECT_TRUE(reached);
-      const bool is_less = grid[i][0] <= sizing.found.depths[0] && grid[i][1] <= sizing.found.depths[1] &&
-                           grid[i] != sizing.found.depths;
-      EXPECT_FALSE(is_less && reached) << grid[i][0] << ' ' << grid[i][1];
-    }
-    EXPECT_EQ(sizing.bits(sizing.found.depths), least) << names[0];
   }
 }
 
