@@ -33,6 +33,12 @@ namespace {
 // Where no bounds are given: so many times less and more than the value that the machine has.
 constexpr double kReach = 8;
 
+bool read_which(const std::string& which) {
+  if (which != "least" && which != "most")
+    throw UserError(fmt::format("ask '{}': must be least or most", excerpt(which)));
+  return which == "most";
+}
+
 // "performance/frame_rate>=60".
 Constraint read_hold(const std::string& text) {
   const std::string before = fmt::format("--hold {}: ", excerpt(text));
@@ -64,6 +70,7 @@ class Question {
   Question(const AskOptions& options, CommandContext& context)
       : options_(options),
         context_(context),
+        most_(read_which(options.which)),
         hold_(read_hold(options.hold)),
         inputs_(options.run),
         pool_([this](const Variant& variant, const NoticeSink& notice) { return prepare(variant, notice); }) {
@@ -104,7 +111,7 @@ class Question {
     // What this command has beside the options of a run goes.
     return context_.command_line.with({"--hold", "--from", "--to"}, {"--set", assignment})
         .beginning({"run", "--timing-only", "--no-verdict"},
-                   {"ask", options_.most ? "most" : "least", options_.key, "--json"})
+                   {"ask", most_ ? "most" : "least", options_.key, "--json"})
         .text();
   }
 
@@ -142,7 +149,7 @@ class Question {
       throw UserError(
           fmt::format("{}: no value from {} to {} makes a possible machine", options_.key, least, most));
     start_ = nearest_to(now_value(*key));
-    if (options_.most) {
+    if (most_) {
       std::reverse(values_.begin(), values_.end());
       start_ = values_.size() - 1 - start_;
     }
@@ -225,7 +232,7 @@ class Question {
     const std::string found =
         fmt::format("{} = {} has {} {}", options_.key, values_[*at], hold_.metric, said_of(*at));
     if (*at == 0)
-      return found + fmt::format("; it is the {} that was looked at", options_.most ? "largest" : "least");
+      return found + fmt::format("; it is the {} that was looked at", most_ ? "largest" : "least");
     return found + fmt::format("; with {}: {}", values_[*at - 1], said_of(*at - 1));
   }
 
@@ -261,6 +268,7 @@ class Question {
 
   const AskOptions& options_;
   CommandContext& context_;
+  const bool most_;  // the largest value is looked for, not the least
   const Constraint hold_;
   EvaluationInputs inputs_;
   EvaluationPool pool_;

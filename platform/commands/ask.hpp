@@ -14,7 +14,7 @@ struct CommandContext;
 struct AskOptions {
   RunOptions run;
   std::string key;
-  bool most = false;  ///< the largest value is looked for, not the least
+  std::string which;  ///< "least" or "most": the value that is looked for
   std::string hold;   ///< "performance/frame_rate>=60"
   std::optional<double> from, to;
 };

@@ -16,11 +16,7 @@ void add_ask_command(CLI::App& app, CommandContext& context) {
   CLI::App& command =
       *app.add_subcommand("ask", "The least or largest value of a key with which a machine holds a bound");
   command.option_defaults()->take_last();
-  command
-      .add_option_function<std::string>(
-          "which", [options](const std::string& which) { options->most = which == "most"; }, "least or most")
-      ->check(CLI::IsMember({"least", "most"}))
-      ->required();
+  command.add_option("which", options->which, "least or most")->required();
   command.add_option("key", options->key, "Configuration key, a number")->type_name("KEY")->required();
   command
       .add_option(

@@ -105,7 +105,7 @@ INSTANTIATE_TEST_SUITE_P(
               "link.host_pixel_rate is 0: --from and --to have to say where to look"},
         Wrong{"least clocks.core_hz --hold performance/frame_rate>=60 --from -1 --to 1e8",
               "--from must be above 0"},
-        Wrong{"less clocks.core_hz --hold performance/frame_rate>=60", "which: less not in {least,most}"}));
+        Wrong{"less clocks.core_hz --hold performance/frame_rate>=60", "ask 'less': must be least or most"}));
 
 }  // namespace ask_test
 }  // namespace parallax
