@@ -188,7 +188,7 @@ class Question {
     // So many steps at most, as each leaves a part of the gap.
     Progress progress(context_.err, shows_progress(context_), "runs", 0, notes.sink());
     return find_threshold(values_.size(), start_, EvaluationPool::usual_processes(),
-                          [&](const auto& indices) {
+                          [&](const std::vector<std::size_t>& indices) {
                             std::vector<Variant> variants;
                             for (const std::size_t index : indices) variants.push_back({{assignment(index)}});
                             std::vector<bool> answers;
@@ -197,7 +197,7 @@ class Question {
                                 [&](std::size_t number, EvaluationResult result) {
                                   for (const std::string& note : result.notes) notes(note);
                                   answers.push_back(holds(result));
-                                  runs_[indices[number]] = std::move(result);
+                                  runs_.insert_or_assign(indices[number], std::move(result));
                                   progress.advance();
                                 });
                             return answers;

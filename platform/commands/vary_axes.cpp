@@ -8,8 +8,8 @@
 #include <set>
 #include <utility>
 
-#include "platform/explore/value_range.hpp"
 #include "platform/config/nearest_key.hpp"
+#include "platform/explore/value_range.hpp"
 #include "tlm/error.hpp"
 
 namespace parallax {

@@ -110,7 +110,7 @@ std::vector<SizedRun> FifoSizer::front() {
 Depths FifoSizer::start(const FifoGoal& goal) {
   const Depths now = depths_of(sizing_.fifos, [](const MachineFifo& fifo) { return fifo.depth; });
   const Depths deep = deep_depths(sizing_.fifos);
-  const Depths free = depths_of(sizing_.fifos, [](const MachineFifo& fifo) { return fifo.deadlock_free; });
+  Depths free = depths_of(sizing_.fifos, [](const MachineFifo& fifo) { return fifo.deadlock_free; });
   std::vector<Depths> starts{now, deep};
   if (goal.kind == FifoGoal::Kind::kDeadlockFree) starts.push_back(free);
   const std::vector<SizedRun> runs = run(starts);

@@ -65,15 +65,15 @@ ExplorationCounts Explorer::run(const std::function<bool()>& interrupted, const 
   advance_ = advance;
   PointSource points(spec_);
   while (!interrupted_()) {
-    std::optional<ExplorationPoint> point = points.next();
-    if (point) look_at(std::move(*point));
+    const std::optional<ExplorationPoint> point = points.next();
+    if (point) look_at(*point);
     if (!point || waiting_.size() == kAtATime) evaluate();
     if (!point) break;
   }
   return counts_;
 }
 
-void Explorer::look_at(ExplorationPoint point) {
+void Explorer::look_at(const ExplorationPoint& point) {
   StoredPoint next{point.number, point.values, {}};
   StoredResult& result = next.result;
   result.schema = kResultSchema;

@@ -46,7 +46,7 @@ class Explorer {
   ExplorationCounts run(const std::function<bool()>& interrupted, const Advance& advance);
 
  private:
-  void look_at(ExplorationPoint point);
+  void look_at(const ExplorationPoint& point);
   void evaluate();
   void take(StoredPoint& point, EvaluationResult result);
   bool stands(const StoredPoint& point);

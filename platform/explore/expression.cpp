@@ -100,8 +100,8 @@ class Translation {
   }
 
   void refuse_other(char c) const {
-    constexpr std::string_view allowed = " \t+-*/%=<>!(),&|~";
-    if (allowed.find(c) == std::string_view::npos) fail(fmt::format("'{}' has no place here", c));
+    constexpr std::string_view kAllowed = " \t+-*/%=<>!(),&|~";
+    if (kAllowed.find(c) == std::string_view::npos) fail(fmt::format("'{}' has no place here", c));
     if (text_.compare(at_, 2, "--") == 0 || text_.compare(at_, 2, "/*") == 0) fail("it has no comments");
   }
 
