@@ -109,7 +109,7 @@ fs::path own_file() {
   void* object = nullptr;
   const auto* const here = reinterpret_cast<const void*>(&own_file);
   if (::dladdr1(here, &ignored, &object, RTLD_DL_LINKMAP) != 0) {
-    const fs::path library = static_cast<const link_map*>(object)->l_name;
+    fs::path library = static_cast<const link_map*>(object)->l_name;
     if (!library.empty()) return library;
   }
   std::error_code failed;

@@ -24,7 +24,7 @@ cv::Mat decode(const fs::path& path, const cv::Mat& pixels, const ImageLimits& l
                                 size_text(size), limits.width, limits.height));
   };
   if (!pixels.empty()) check(pixels.size());
-  const cv::Mat image = pixels.empty() ? read_image_file(path.string(), "image", check) : pixels;
+  cv::Mat image = pixels.empty() ? read_image_file(path.string(), "image", check) : pixels;
   if (image.depth() != CV_8U && image.depth() != CV_16U) {
     const bool real = image.depth() == CV_16F || image.depth() == CV_32F || image.depth() == CV_64F;
     throw UserError(fmt::format("image {} has {} values, expected unsigned integers of 8 or 16 bits",
