@@ -61,6 +61,10 @@ Constraint read_hold(const std::string& text) {
                                 before, excerpt(constraint.metric),
                                 nearest_key(constraint.metric, run_metric_names())));
   }
+  if (constraint.metric.rfind("quality/", 0) == 0)
+    throw UserError(fmt::format("{}{} needs images, and none are computed", before, constraint.metric));
+  if (find_run_metric(constraint.metric)->unit.empty())
+    throw UserError(fmt::format("{}{} is a word, and has no bounds", before, constraint.metric));
   (text[sign] == '>' ? constraint.at_least : constraint.at_most) = bound;
   return constraint;
 }

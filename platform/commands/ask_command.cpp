@@ -23,7 +23,8 @@ void add_ask_command(CLI::App& app, CommandContext& context) {
           "--hold", options->hold,
           "What must hold, of a number of a run: performance/frame_rate>=60, or <= where less is better")
       ->type_name("NUMBER>=VALUE")
-      ->required();
+      ->required()
+      ->multi_option_policy(CLI::MultiOptionPolicy::Throw);
   command
       .add_option("--from", options->from,
                   "Least value to look at; an eighth of the one that the machine has, if not given")

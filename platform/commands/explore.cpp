@@ -16,6 +16,7 @@
 #include "platform/commands/run_folder.hpp"
 #include "platform/commands/timed_run.hpp"
 #include "platform/config/nearest_key.hpp"
+#include "platform/estimate/estimate_metrics.hpp"
 #include "platform/explore/exploration_outcome.hpp"
 #include "platform/explore/exploration_table.hpp"
 #include "platform/explore/explorer.hpp"
@@ -38,12 +39,17 @@ constexpr const char* kFront = "front.csv";
 
 // A number that no run has would be missing at every point.
 const MetricInfo& require_metric(const std::string& name, const std::string& where) {
+  if (name.rfind("quality/", 0) == 0)
+    throw UserError(fmt::format("{}: {} needs images, and explorations compute none", where, excerpt(name)));
   if (const MetricInfo* metric = find_run_metric(name)) return *metric;
   if (const MetricInfo* metric = find_estimate_metric(name)) return *metric;
   throw UserError(fmt::format(
       "{}: {} is neither varied nor a number of a run; the nearest of these is {} (parallax glossary)", where,
       excerpt(name), nearest_key(name, run_metric_names())));
 }
+
+// Where the numbers of a device are.
+std::string device_path(const std::string& device) { return "devices/" + device_group(device) + "/"; }
 
 class Exploration {
  public:
@@ -153,11 +159,18 @@ class Exploration {
 
   void check_metrics() const {
     const auto require = [this](const std::string& name, const std::string& where) {
-      if (std::find(names_.begin(), names_.end(), name) == names_.end()) require_metric(name, where);
+      if (std::find(names_.begin(), names_.end(), name) != names_.end()) return;
+      const MetricInfo& metric = require_metric(name, where);
+      const bool of_device = metric.path.rfind("devices/", 0) == 0;
+      if (of_device && name.rfind(device_path(spec_.device), 0) != 0)
+        throw UserError(fmt::format("{}: {} is not of the device that the file names: device = \"{}\"", where,
+                                    excerpt(name), spec_.device));
+      if (metric.unit.empty() && !of_device)
+        throw UserError(fmt::format("{}: {} is a word, and has no least or most", where, excerpt(name)));
     };
     for (const Constraint& constraint : spec_.constraints) require(constraint.metric, constraint.origin);
     for (const Objective& objective : spec_.objectives) require(objective.metric, objective.origin);
-    for (const std::string& name : spec_.metrics) require(name, options_.spec.string());
+    for (const std::string& name : spec_.metrics) require_metric(name, options_.spec.string());
   }
 
   void write_tables(OutputFolder& folder, ResultStore& store, const ExplorationOutcome& outcome) const {

@@ -13,16 +13,6 @@ namespace {
 constexpr const char* kPartPaths[] = {"resources/stage/<stage>", "resources/buffer/<buffer>",
                                       "resources/fifo/<stream>", "resources/engine/<port>"};
 
-// As a name in a tree: "zynq_7020".
-std::string group_name(const std::string& device) {
-  std::string name;
-  for (const char c : std::filesystem::path(device).stem().string()) {
-    const auto letter = static_cast<unsigned char>(c);
-    name += std::isalnum(letter) != 0 ? static_cast<char>(std::tolower(letter)) : '_';
-  }
-  return name;
-}
-
 void add_cells(const MetricWriter& out, const std::string& path, const Resources& cells) {
   out.add(path + "/lut", cells.luts());
   out.add(path + "/lut_ram", cells.ram_luts);
@@ -45,6 +35,15 @@ std::vector<MetricInfo> rows_of(const std::string& path, const std::string& whos
 }
 
 }  // namespace
+
+std::string device_group(const std::string& device) {
+  std::string name;
+  for (const char c : std::filesystem::path(device).stem().string()) {
+    const auto letter = static_cast<unsigned char>(c);
+    name += std::isalnum(letter) != 0 ? static_cast<char>(std::tolower(letter)) : '_';
+  }
+  return name;
+}
 
 const MetricTable& estimate_table() {
   static const MetricTable table = [] {
@@ -89,7 +88,7 @@ void add_resources(MetricGroup& root, const ResourceEstimate& estimate, const De
 }
 
 void add_device(MetricGroup& root, const ResourceEstimate& estimate, const DeviceFile& device) {
-  const MetricWriter out = MetricWriter(root, estimate_table()).of(group_name(device.name));
+  const MetricWriter out = MetricWriter(root, estimate_table()).of(device_group(device.name));
   const std::vector<DeviceShare> shares = device_shares(estimate.total, device);
   out.add("devices/<device>/fits", fits(shares));
   for (const DeviceShare& share : shares)

@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
+
 #include "platform/estimate/device_fit.hpp"
 #include "traces/metric_table.hpp"
 
 namespace parallax {
+
+/// A device's name, or file, as a name in a tree: "zynq_7020".
+std::string device_group(const std::string& device);
 
 /// The numbers of an estimate.
 const MetricTable& estimate_table();

@@ -20,14 +20,21 @@ constexpr std::array<std::string_view, 15> kKeywords{"and",  "or",   "not",  "be
                                                      "is",   "null", "case", "when",    "then",
                                                      "else", "end",  "like", "true",    "false"};
 
+// What has the same value on every computer, every time.
+constexpr std::array<std::string_view, 25> kFunctions{
+    "abs",    "ceil", "ceiling", "coalesce", "exp",  "floor", "ifnull", "iif", "instr",
+    "length", "ln",   "log",     "log10",    "log2", "lower", "max",    "min", "mod",
+    "nullif", "pow",  "power",   "round",    "sign", "sqrt",  "substr"};
+
 bool begins_name(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_'; }
 
 bool goes_on(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '.'; }
 
-bool is_keyword(std::string word) {
+template <class Words>
+bool is_one_of(const Words& words, std::string word) {
   std::transform(word.begin(), word.end(), word.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return std::find(kKeywords.begin(), kKeywords.end(), word) != kKeywords.end();
+  return std::find(words.begin(), words.end(), word) != words.end();
 }
 
 // The same with "?3" in the place of the third name.
@@ -50,6 +57,8 @@ class Translation {
         copy_number();
       } else {
         refuse_other(c);
+        open_ += c == '(' ? 1 : c == ')' ? -1 : 0;
+        if (open_ < 0) fail("a parenthesis is closed that is not open");
         result_ += text_[at_++];
       }
     }
@@ -74,7 +83,12 @@ class Translation {
     const std::string word = text_.substr(begin, at_ - begin);
     const std::size_t next = std::min(text_.find_first_not_of(" \t", at_), text_.size());
     const bool function = next < text_.size() && text_[next] == '(';
-    if (is_keyword(word) || function) {
+    if (is_one_of(kKeywords, word)) {
+      result_ += word;
+      return;
+    }
+    if (function) {
+      if (!is_one_of(kFunctions, word)) fail(fmt::format("{}() is no function here", word));
       result_ += word;
       return;
     }
@@ -110,6 +124,7 @@ class Translation {
   const std::string& origin_;
   std::size_t at_ = 0;
   int last_ = 0;
+  int open_ = 0;  // parentheses
   std::string result_;
 };
 

@@ -105,6 +105,12 @@ INSTANTIATE_TEST_SUITE_P(
               "link.host_pixel_rate is 0: --from and --to have to say where to look"},
         Wrong{"least clocks.core_hz --hold performance/frame_rate>=60 --from -1 --to 1e8",
               "--from must be above 0"},
+        Wrong{"least clocks.core_hz --hold performance/frame_rate>=60 --hold memory/share<=50",
+              "--hold: At Most 1 required but received 2"},
+        Wrong{"least clocks.core_hz --hold limit/part>=3",
+              "--hold limit/part>=3: limit/part is a word, and has no bounds"},
+        Wrong{"least clocks.core_hz --hold quality/bad_1<=5",
+              "--hold quality/bad_1<=5: quality/bad_1 needs images, and none are computed"},
         Wrong{"less clocks.core_hz --hold performance/frame_rate>=60", "ask 'less': must be least or most"}));
 
 }  // namespace ask_test

@@ -239,6 +239,12 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"rectified = true", "left = \"no.png\"",
               "s.toml: --right is missing: a pair needs --left and --right"},
         Wrong{"[run]", "device = \"zynq-7021\"\n[run]", "the nearest is zynq-7020"},
+        Wrong{"\"energy/frame_total\"", "\"quality/bad_1\"",
+              "s.toml:17: quality/bad_1 needs images, and explorations compute none"},
+        Wrong{"\"energy/frame_total\"", "\"limit/part\"",
+              "s.toml:17: limit/part is a word, and has no least or most"},
+        Wrong{"\"energy/frame_total\"", "\"devices/zynq_7045/fits\"",
+              "s.toml:17: devices/zynq_7045/fits is not of the device that the file names: device = \"\""},
         Wrong{"[vary]", "[set]", "s.toml:8: clocks.core_hz: must be a number, true, false or text"}));
 
 TEST(Explore, SaysWhatIsWrongWithItsDatabase) {

@@ -56,8 +56,10 @@ INSTANTIATE_TEST_SUITE_P(
             "spec:3: 'matching.paralelism * 2': matching.paralelism is neither varied nor linked before; the "
             "nearest is matching.parallelism"},
         Wrong{"1 +", "spec:3: '1 +': near \")\": syntax error"},
-        Wrong{"sum_of(3)", "spec:3: 'sum_of(3)': no such function: sum_of"},
-        Wrong{"1); drop table x", "spec:3: '1); drop table x': ';' has no place here"},
+        Wrong{"sum_of(3)", "spec:3: 'sum_of(3)': sum_of() is no function here"},
+        Wrong{"random() > 0", "spec:3: 'random() > 0': random() is no function here"},
+        Wrong{"1) or (1", "spec:3: '1) or (1': a parenthesis is closed that is not open"},
+        Wrong{"1; drop table x", "spec:3: '1; drop table x': ';' has no place here"},
         Wrong{"1 -- 2", "spec:3: '1 -- 2': it has no comments"},
         Wrong{"\"size\"", "spec:3: '\"size\"': '\"' has no place here"},
         Wrong{"'abc", "spec:3: ''abc': a quote is not closed"},
