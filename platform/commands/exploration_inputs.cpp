@@ -53,18 +53,22 @@ std::string contents(const RunOptions& options) {
 }
 
 // All that a device's file and those that it inherits from say.
-std::string device_text(DeviceFile device) {
+std::string device_text(std::optional<DeviceFile> device) {
+  if (!device) return "";
   Schema schema;
-  describe(schema, device);
+  describe(schema, *device);
   FileContent content;
   for (const EffectiveKey& key : effective_keys(schema)) {
     const std::string line = fmt::format("{}.{}={}\n", key.section, key.name, to_toml(key.value));
     content.add(line.data(), line.size());
   }
-  return fmt::format("{} {:08x}", device.name, content.crc);
+  return fmt::format(" on {} {:08x}", device->name, content.crc);
 }
 
 }  // namespace
+
+ExplorationInputs::ExplorationInputs(const ExplorationSpec& spec)
+    : spec_(spec), device_(device_of(spec)), device_text_(device_text(device_)) {}
 
 std::optional<DeviceFile> ExplorationInputs::device_of(const ExplorationSpec& spec) {
   const std::vector<std::string> metrics = spec.named_metrics();
@@ -103,7 +107,7 @@ Configuration ExplorationInputs::configuration(const RunOptions& options,
                                                const ExplorationPoint& point) const {
   ConfigurationRequest request = options.configuration;
   request.assignments = spec_.assignments;
-  for (std::string& assignment : assignments_of(spec_, names_, point))
+  for (std::string& assignment : assignments_of(spec_, point))
     request.assignments.push_back(std::move(assignment));
   return load_configuration(request, preset_folders());
 }
@@ -112,7 +116,7 @@ std::string ExplorationInputs::command(const ExplorationPoint& point) const {
   std::string text = "parallax run --timing-only --no-verdict";
   for (const std::string& word : command_words(words(point))) text += ' ' + shell_word(word);
   for (const std::string& assignment : spec_.assignments) text += " --set " + shell_word(assignment);
-  for (const std::string& assignment : assignments_of(spec_, names_, point))
+  for (const std::string& assignment : assignments_of(spec_, point))
     text += " --set " + shell_word(assignment);
   return text;
 }
@@ -135,7 +139,7 @@ PointIdentity ExplorationInputs::identify(const ExplorationPoint& point) {
       identity.input += (identity.input.empty() ? "" : " ") + shell_word(text);
   }
   identity.input += input.content;
-  if (device_) identity.input += " on " + device_text(*device_);
+  identity.input += device_text_;
   identity.command = command(point);
   identity.seed = input.options.scene.seed;
   return identity;

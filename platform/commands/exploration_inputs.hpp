@@ -18,9 +18,8 @@ namespace parallax {
 /// options, of which the last few are kept.
 class ExplorationInputs {
  public:
-  /// `spec` must outlive this object; `names` are those of its PointSource. Throws UserError: no such device.
-  ExplorationInputs(const ExplorationSpec& spec, std::vector<std::string> names)
-      : spec_(spec), names_(std::move(names)), device_(device_of(spec)) {}
+  /// `spec` must outlive this object. Throws UserError: no such device.
+  explicit ExplorationInputs(const ExplorationSpec& spec);
 
   /// Throws UserError where a point is no possible machine.
   PointIdentity identify(const ExplorationPoint& point);
@@ -48,8 +47,8 @@ class ExplorationInputs {
   std::string command(const ExplorationPoint& point) const;
 
   const ExplorationSpec& spec_;
-  const std::vector<std::string> names_;
   const std::optional<DeviceFile> device_;  // whose resources are asked for
+  const std::string device_text_;           // all that its file says
   std::deque<std::unique_ptr<Opened>> opened_;
 };
 

@@ -59,8 +59,8 @@ class Exploration {
         spec_(read_exploration_spec(options.spec, timed_run_options())),
         names_(spec_.varied_names()),
         metrics_(spec_.named_metrics()),
-        inputs_(spec_, names_) {
-    if (metrics_.empty()) metrics_ = usual_metrics();
+        inputs_(spec_) {
+    if (metrics_.empty()) metrics_ = kept_metrics(spec_);
     check_metrics();
   }
 
@@ -71,7 +71,7 @@ class Exploration {
     OutputFolder folder(options_.out, plan());
     ResultStore store(options_.out / "results.db");
     store.begin(spec_.text, names_);
-    for (const std::string& name : all_metrics()) {
+    for (const std::string& name : kept_metrics(spec_)) {
       const MetricInfo& info = require_metric(name, options_.spec.string());
       store.describe(name, info.unit, info.description);
     }
@@ -151,12 +151,6 @@ class Exploration {
     }
   }
 
-  std::vector<std::string> all_metrics() const {
-    std::vector<std::string> all = spec_.named_metrics();
-    all.insert(all.end(), usual_metrics().begin(), usual_metrics().end());
-    return all;
-  }
-
   void check_metrics() const {
     const auto require = [this](const std::string& name, const std::string& where) {
       if (std::find(names_.begin(), names_.end(), name) != names_.end()) return;
@@ -174,21 +168,13 @@ class Exploration {
   }
 
   void write_tables(OutputFolder& folder, ResultStore& store, const ExplorationOutcome& outcome) const {
-    const std::vector<std::string> metrics = unique(all_metrics());
+    const std::vector<std::string> metrics = kept_metrics(spec_);
     const ExplorationTable table(names_, metrics, store);
     for (const char* name : {kPoints, kFront}) {
       OutputFile& file = folder.open(name);
       table.csv(outcome, name == kFront, [&file](const std::string& line) { file.write(line); });
     }
     folder.publish();
-  }
-
-  static std::vector<std::string> unique(const std::vector<std::string>& names) {
-    std::vector<std::string> all;
-    for (const std::string& name : names) {
-      if (std::find(all.begin(), all.end(), name) == all.end()) all.push_back(name);
-    }
-    return all;
   }
 
   void say(ResultStore& store, const ExplorationOutcome& outcome, const ExplorationCounts& counts,
@@ -201,6 +187,9 @@ class Exploration {
     if (context_.verbosity == Verbosity::kQuiet) return;
     context_.out << fmt::format("points              {} of {}: {}; {} evaluated now\n", counts.points, total,
                                 statuses(outcome), counts.evaluated);
+    if (outcome.fault)
+      context_.out << fmt::format("not measured        {}; the first, point {}: {}\n",
+                                  counts.points - outcome.done(), outcome.fault->number, outcome.fault->line);
     if (!spec_.constraints.empty())
       context_.out << fmt::format("satisfied           {}\n", outcome.satisfied.size());
     if (outcome.nearest)
@@ -236,6 +225,8 @@ class Exploration {
                                 {"statuses", outcome.by_status},
                                 {"satisfied", outcome.satisfied.size()},
                                 {"front", table.json(outcome.front)}};
+    if (outcome.fault)
+      tree["first_fault"] = {{"point", outcome.fault->number}, {"message", outcome.fault->line}};
     if (outcome.nearest) tree["nearest"] = table.json({outcome.nearest->number}).front();
     return tree;
   }

@@ -21,7 +21,7 @@ constexpr std::array<Status, 6> kStatuses{Status::kDone,   Status::kInvalid,    
 
 }  // namespace
 
-std::string EvaluationResult::advice() const {
+std::string advice_in(const std::string& message) {
   std::string line = message;
   while (!line.empty() && line.back() == '\n') line.pop_back();
   line.erase(0, line.rfind('\n') + 1);

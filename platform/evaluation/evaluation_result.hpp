@@ -10,6 +10,9 @@
 
 namespace parallax {
 
+/// Of a message of several lines, the one that says what to do: the last.
+std::string advice_in(const std::string& message);
+
 /// What became of an evaluation: whether it could be done, what most ask for, and all that was measured.
 struct EvaluationResult {
   enum class Status {
@@ -45,8 +48,7 @@ struct EvaluationResult {
   double processor_seconds = 0;          ///< likewise
 
   bool done() const { return status == Status::kDone; }
-  /// Of the message, the line that says what to do: the last one.
-  std::string advice() const;
+  std::string advice() const { return advice_in(message); }
 };
 
 /// Of a run that came to its end.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "platform/evaluation/evaluation_result.hpp"
 #include "platform/explore/judgement.hpp"
 
 namespace parallax {
@@ -18,7 +19,10 @@ class Judge {
 
   void look_at(const StoredPoint& point) {
     ++outcome_.by_status[point.result.status];
-    if (point.result.status != "done") return;
+    if (point.result.status != "done") {
+      if (!outcome_.fault) outcome_.fault = PointFault{point.number, advice_in(point.result.message)};
+      return;
+    }
     double missed = 0;
     NearestMiss worst{point.number, nullptr, 0};
     double most = 0;

@@ -20,11 +20,18 @@ struct NearestMiss {
   double value = 0;
 };
 
+/// A point that could not be measured.
+struct PointFault {
+  std::size_t number = 0;
+  std::string line;  ///< of its message the last, which says what to do
+};
+
 /// What the points of an exploration come to.
 struct ExplorationOutcome {
   std::map<std::string, std::size_t> by_status;  ///< "done", "stuck", ...: how many
   std::set<std::size_t> satisfied;               ///< those done that fulfil all constraints, by number
   std::set<std::size_t> front;         ///< of these the Pareto front; all where there is no objective
+  std::optional<PointFault> fault;     ///< the first, by number
   std::optional<NearestMiss> nearest;  ///< where none is satisfied, and one was done
 
   std::size_t done() const;

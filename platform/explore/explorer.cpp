@@ -39,26 +39,18 @@ StoredValue stored(const Metric* metric) {
 
 }  // namespace
 
-const std::vector<std::string>& usual_metrics() {
-  static const std::vector<std::string> names{"performance/frame_rate",
-                                              "latency/exposure_to_host_mean",
-                                              "latency/exposure_to_host_p99",
-                                              "limit/utilisation",
-                                              "memory/share",
-                                              "energy/frame_total"};
+std::vector<std::string> kept_metrics(const ExplorationSpec& spec) {
+  std::vector<std::string> names = spec.named_metrics();
+  for (const char* usual :
+       {"performance/frame_rate", "latency/exposure_to_host_mean", "latency/exposure_to_host_p99",
+        "limit/utilisation", "memory/share", "energy/frame_total"}) {
+    if (std::find(names.begin(), names.end(), usual) == names.end()) names.emplace_back(usual);
+  }
   return names;
 }
 
 Explorer::Explorer(const ExplorationSpec& spec, ResultStore& store, EvaluationPool& pool, Identify identify)
-    : spec_(spec),
-      store_(store),
-      pool_(pool),
-      identify_(std::move(identify)),
-      metrics_(spec.named_metrics()) {
-  for (const std::string& name : usual_metrics()) {
-    if (std::find(metrics_.begin(), metrics_.end(), name) == metrics_.end()) metrics_.push_back(name);
-  }
-}
+    : spec_(spec), store_(store), pool_(pool), identify_(std::move(identify)), metrics_(kept_metrics(spec)) {}
 
 ExplorationCounts Explorer::run(const std::function<bool()>& interrupted, const Advance& advance) {
   interrupted_ = interrupted;

@@ -28,8 +28,9 @@ struct ExplorationCounts {
   std::size_t not_done = 0;   ///< invalid, stuck or failed
 };
 
-/// Metrics that are kept of every point, whatever is asked for.
-const std::vector<std::string>& usual_metrics();
+/// Metrics that are kept of every point: what the specification names, then some that most ask for, each
+/// once.
+std::vector<std::string> kept_metrics(const ExplorationSpec& spec);
 
 /// Evaluates the points of an exploration that its store does not know, as many at a time as the pool does.
 class Explorer {

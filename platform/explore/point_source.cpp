@@ -62,7 +62,14 @@ bool PointSource::fulfils_conditions(std::vector<std::string>& values) {
   std::vector<ConfigValue> known;
   for (const std::string& text : values) known.push_back(as_value(text));
   for (Expression& link : links_) {
-    known.push_back(link.value(known));
+    try {
+      known.push_back(link.value(known));
+    } catch (const UserError& error) {
+      std::string where;
+      for (std::size_t i = 0; i < values.size(); ++i)
+        where += fmt::format("{}{} = {}", i == 0 ? "" : ", ", names_[i], values[i]);
+      throw UserError(fmt::format("{} where {}", error.what(), where));
+    }
     values.push_back(as_text(known.back()));
   }
   for (Expression& condition : conditions_) {
@@ -80,8 +87,8 @@ std::size_t count_points(const ExplorationSpec& spec, std::size_t most) {
   return number;
 }
 
-std::vector<std::string> assignments_of(const ExplorationSpec& spec, const std::vector<std::string>& names,
-                                        const ExplorationPoint& point) {
+std::vector<std::string> assignments_of(const ExplorationSpec& spec, const ExplorationPoint& point) {
+  const std::vector<std::string> names = spec.varied_names();
   std::vector<std::string> all;
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (i >= spec.axes.size() || !spec.axes[i].option) all.push_back(names[i] + "=" + point.values[i]);

@@ -15,7 +15,7 @@ namespace parallax {
 /// A point of an exploration.
 struct ExplorationPoint {
   std::size_t number = 0;           ///< from 0
-  std::vector<std::string> values;  ///< in the order of PointSource::names()
+  std::vector<std::string> values;  ///< in the order of ExplorationSpec::varied_names()
 };
 
 /// The points of an exploration, one after the other: sampled values, the keys that follow from them, and
@@ -25,8 +25,6 @@ class PointSource {
   /// `spec` must outlive this object. Throws UserError: an expression is malformed.
   explicit PointSource(const ExplorationSpec& spec);
 
-  /// Names of what differs from point to point: axes, then linked keys.
-  const std::vector<std::string>& names() const { return names_; }
   /// Nothing after the last one. Throws UserError when conditions leave (nearly) nothing of a random sample,
   /// or a linked key has no value.
   std::optional<ExplorationPoint> next();
@@ -48,8 +46,7 @@ class PointSource {
 std::size_t count_points(const ExplorationSpec& spec, std::size_t most);
 
 /// "key=value" of what is a key at a point.
-std::vector<std::string> assignments_of(const ExplorationSpec& spec, const std::vector<std::string>& names,
-                                        const ExplorationPoint& point);
+std::vector<std::string> assignments_of(const ExplorationSpec& spec, const ExplorationPoint& point);
 /// What are options of `parallax run` at a point.
 std::vector<RunWord> run_words_of(const ExplorationSpec& spec, const ExplorationPoint& point);
 

@@ -69,12 +69,12 @@ matching.parallelism = [8, 16, 32]
 matching.iterations = "128 / matching.parallelism"
 )");
   PointSource source(spec);
-  EXPECT_EQ(source.names(), (std::vector<std::string>{"matching.parallelism", "matching.iterations"}));
+  EXPECT_EQ(spec.varied_names(), (std::vector<std::string>{"matching.parallelism", "matching.iterations"}));
   const auto first = source.next();
   ASSERT_TRUE(first);
   EXPECT_EQ(first->number, 0U);
   EXPECT_EQ(first->values, (std::vector<std::string>{"16", "8"}));
-  EXPECT_EQ(assignments_of(spec, source.names(), *first),
+  EXPECT_EQ(assignments_of(spec, *first),
             (std::vector<std::string>{"matching.parallelism=16", "matching.iterations=8"}));
   EXPECT_TRUE(source.next());
   EXPECT_FALSE(source.next());
@@ -169,6 +169,8 @@ INSTANTIATE_TEST_SUITE_P(
               "s.toml:2: least: unknown; a constraint has at_least, at_most, or both"},
         Wrong{"[constraints]\n'a/b' = { at_least = 2, at_most = 1 }",
               "s.toml:2: a/b: at_least is above at_most: nothing can satisfy that"},
+        Wrong{"[vary]\nmatching.p1 = [5, 6]\n[link]\nmatching.p2 = '100 / (matching.p1 - 6)'",
+              "s.toml:4: '100 / (matching.p1 - 6)' has no value where matching.p1 = 6"},
         Wrong{"[objectives]\n'a/b' = 'max'", "s.toml:2: a/b: must be \"most\" or \"least\""},
         Wrong{"conditions = ['clocks.core_hz > 1e9']\n[vary]\nclocks.core_hz = {from = 1e6, to = 2e6}\n"
               "[sampling]\nmethod = 'random'\npoints = 2",

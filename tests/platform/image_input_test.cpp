@@ -310,38 +310,6 @@ TEST(ImageInput, TheSamePictureTwiceIsSaid) {
   EXPECT_TRUE(said("a.png", "c.png").empty());
 }
 
-TEST(ImageInput, ImagesInMemoryAreTakenAsFilesAre) {
-  const TemporaryFolder folder;
-  const std::vector<StereoImages> images{
-      {random_image(20, 10, CV_16UC1, 1023), grey(20, 10)},
-      {random_image(20, 10, CV_8UC3, 255, 2), random_image(20, 10, CV_8UC4, 255, 3)}};
-  std::vector<ImagePair> files;
-  for (std::size_t i = 0; i < images.size(); ++i) {
-    files.push_back({folder / (std::to_string(i) + "l.png"), folder / (std::to_string(i) + "r.png")});
-    save(files[i].left, images[i].left);
-    save(files[i].right, images[i].right);
-  }
-  ImageInput in_memory(pairs_in_memory(images), {}, {}), in_files(files, {}, {});
-  ASSERT_EQ(in_memory.frames(), images.size());
-  for (std::size_t i = 0; i < images.size(); ++i) {
-    EXPECT_EQ(cv::norm(in_memory.load(i).left, in_files.load(i).left, cv::NORM_INF), 0);
-    EXPECT_EQ(cv::norm(in_memory.load(i).right, in_files.load(i).right, cv::NORM_INF), 0);
-  }
-}
-
-TEST(ImageInput, ImagesInMemoryHaveNames) {
-  const auto refused = [](const std::vector<StereoImages>& images) {
-    return error_line<UserError>([&] {
-      ImageInput input(pairs_in_memory(images), {{64, 64}, {}, false}, {});
-      for (std::size_t i = 0; i < images.size(); ++i) input.load(i);
-    });
-  };
-  EXPECT_EQ(refused({{grey(20, 10), grey(20, 11)}}),
-            "the left image left is 20x10, the right image right is 20x11; both must have one size");
-  EXPECT_EQ(refused({{grey(20, 10), grey(20, 10)}, {grey(65, 10), grey(20, 10)}}),
-            "image left[1] is 65x10, larger than the largest size 64x64");
-}
-
 TEST(ImageInput, SixteenBitsBesideEight) {
   const TemporaryFolder folder;
   const cv::Mat left = random_image(20, 10, CV_16UC1, 65535), right = grey(20, 10);
