@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "platform/commands/exploration.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "platform/commands/exploration_metrics.hpp"
+#include "platform/commands/run_folder.hpp"
+#include "platform/commands/timed_run.hpp"
+#include "platform/explore/exploration_table.hpp"
+#include "platform/results/glossary.hpp"
+#include "tlm/error.hpp"
+
+namespace parallax {
+namespace {
+
+constexpr std::size_t kLargestExploration = 1'000'000;
+// So many inputs that cannot be opened are all.
+constexpr std::size_t kInputsTried = 100;
+constexpr const char* kPoints = "points.csv";
+constexpr const char* kFront = "front.csv";
+
+}  // namespace
+
+Exploration::Exploration(const std::filesystem::path& spec, const std::filesystem::path& out)
+    : file_(spec),
+      out_(out),
+      spec_(read_exploration_spec(spec, timed_run_options())),
+      names_(spec_.varied_names()),
+      metrics_(spec_.named_metrics()),
+      inputs_(spec_) {
+  if (metrics_.empty()) metrics_ = kept_metrics(spec_);
+  check_metrics();
+  size_ = count();
+  check_inputs();
+}
+
+ExplorationReport Exploration::run(const ExplorationWatch& watch) {
+  folder_ = std::make_unique<OutputFolder>(out_, plan());
+  store_ = std::make_unique<ResultStore>(out_ / "results.db");
+  store_->begin(spec_.text, names_);
+  for (const std::string& name : kept_metrics(spec_)) {
+    const MetricInfo& info = require_metric(name, file_.string());
+    store_->describe(name, info.unit, info.description);
+  }
+  EvaluationPool pool([this](const Variant& variant, const NoticeSink& notice) {
+    return inputs_.prepare({0, variant.assignments}, notice);
+  });
+  Explorer explorer(spec_, *store_, pool,
+                    [this](const ExplorationPoint& point) { return inputs_.identify(point); });
+  ExplorationReport report;
+  report.counts = explorer.run(watch.interrupted, watch.advance);
+  report.whole = report.counts.points == size_;
+  if (report.whole) store_->end();
+  report.outcome = judge(spec_, *store_);
+  write_tables(*folder_, report.outcome);
+  return report;
+}
+
+// What is wrong with the input of all points is one error, not a row for each.
+void Exploration::check_inputs() {
+  std::optional<UserError> first;
+  std::set<std::vector<std::string>> seen;
+  PointSource points(spec_);
+  while (const std::optional<ExplorationPoint> point = points.next()) {
+    if (!seen.insert(command_words(inputs_.words(*point))).second) continue;
+    try {
+      inputs_.check_input(*point);
+      return;
+    } catch (const UserError& error) {
+      if (!first) first = error;
+    }
+    if (seen.size() == kInputsTried) break;
+  }
+  fail(first->what());
+}
+
+void Exploration::fail(const std::string& line) const {
+  const std::string file = file_.string();
+  throw UserError(line.rfind(file, 0) == 0 ? line : file + ": " + line);
+}
+
+// None of the inputs, at whichever point, may be replaced.
+FolderPlan Exploration::plan() const {
+  FolderPlan plan;
+  plan.writes = [](const std::string& name) { return name == kPoints || name == kFront; };
+  plan.inputs.push_back({file_.string(), file_});
+  std::set<std::vector<std::string>> seen;
+  PointSource points(spec_);
+  while (const std::optional<ExplorationPoint> point = points.next()) {
+    const std::vector<RunWord> words = inputs_.words(*point);
+    if (!seen.insert(command_words(words)).second) continue;
+    try {
+      for (NamedInput& input : folder_plan(timed_run(words), ResultPlan{}).inputs)
+        plan.inputs.push_back(std::move(input));
+    } catch (const UserError&) {  // its row says so
+    }
+  }
+  return plan;
+}
+
+std::size_t Exploration::count() const {
+  try {
+    const std::size_t number = count_points(spec_, kLargestExploration);
+    if (number == 0) throw UserError("no point fulfils the conditions");
+    return number;
+  } catch (const UserError& error) {
+    fail(error.what());
+  }
+}
+
+void Exploration::check_metrics() const {
+  const auto require = [this](const std::string& name, const std::string& where) {
+    if (std::find(names_.begin(), names_.end(), name) != names_.end()) return;
+    require_number(name, spec_.device, where);
+  };
+  for (const Constraint& constraint : spec_.constraints) require(constraint.metric, constraint.origin);
+  for (const Objective& objective : spec_.objectives) require(objective.metric, objective.origin);
+  for (const std::string& name : spec_.metrics) require_metric(name, file_.string());
+}
+
+void Exploration::write_tables(OutputFolder& folder, const ExplorationOutcome& outcome) {
+  const std::vector<std::string> metrics = kept_metrics(spec_);
+  const ExplorationTable table(names_, metrics, *store_);
+  for (const char* name : {kPoints, kFront}) {
+    OutputFile& file = folder.open(name);
+    table.csv(outcome, name == kFront, [&file](const std::string& line) { file.write(line); });
+  }
+  folder.publish();
+}
+
+}  // namespace parallax

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "platform/commands/exploration_inputs.hpp"
+#include "platform/explore/exploration_outcome.hpp"
+#include "platform/explore/exploration_spec.hpp"
+#include "platform/explore/explorer.hpp"
+#include "platform/explore/result_store.hpp"
+#include "platform/results/output_folder.hpp"
+
+namespace parallax {
+
+/// What the points of an exploration came to.
+struct ExplorationReport {
+  ExplorationCounts counts;
+  ExplorationOutcome outcome;
+  bool whole = false;  ///< all points are there
+};
+
+/// What of an exploration is watched while it runs.
+struct ExplorationWatch {
+  std::function<bool()> interrupted;  ///< asked some ten times a second
+  Explorer::Advance advance;
+};
+
+/// An exploration with its folder: results.db, points.csv, front.csv. Who prints or plots it asks for the
+/// rest.
+class Exploration {
+ public:
+  /// Throws UserError: the specification is wrong, no point fulfils its conditions or has a possible input.
+  Exploration(const std::filesystem::path& spec, const std::filesystem::path& out);
+
+  const ExplorationSpec& spec() const { return spec_; }
+  /// What varies, and the numbers that are shown, one column each.
+  const std::vector<std::string>& names() const { return names_; }
+  const std::vector<std::string>& metrics() const { return metrics_; }
+  /// How many points it has.
+  std::size_t size() const { return size_; }
+
+  /// Evaluates the points that the folder does not know, and writes its tables. Throws UserError.
+  ExplorationReport run(const ExplorationWatch& watch);
+  /// What run() found; after it.
+  ResultStore& store() { return *store_; }
+
+ private:
+  [[noreturn]] void fail(const std::string& line) const;
+  std::size_t count() const;
+  void check_metrics() const;
+  void check_inputs();
+  FolderPlan plan() const;
+  void write_tables(OutputFolder& folder, const ExplorationOutcome& outcome);
+
+  const std::filesystem::path file_;
+  const std::filesystem::path out_;
+  const ExplorationSpec spec_;
+  const std::vector<std::string> names_;
+  std::vector<std::string> metrics_;
+  ExplorationInputs inputs_;
+  std::size_t size_ = 0;
+  std::unique_ptr<OutputFolder> folder_;
+  std::unique_ptr<ResultStore> store_;
+};
+
+}  // namespace parallax
