@@ -135,7 +135,7 @@ class Sweep {
     if (folder_ && result.done()) {
       const std::string name = fmt::format("point_{:04}/", point);
       folder_->write(name + "timing.json",
-                     json_text(timing_json(result.metrics, result.configuration), 2) + "\n");
+                     json_text(timing_json(result), 2) + "\n");
       if (verdict) folder_->write(name + "relaxations.json", json_text(to_json(verdict->limits), 2) + "\n");
       folder_->publish();
     }
@@ -157,7 +157,7 @@ class Sweep {
     }
     entry["command"] = command(point);
     if (result.done()) {
-      entry["timing"] = timing_json(result.metrics, std::move(result.configuration));
+      entry["timing"] = timing_json(result);
       if (verdict) entry["relaxations"] = to_json(verdict->limits);
     } else {
       entry["message"] = std::move(result.message);

@@ -78,7 +78,7 @@ EvaluationResult simulate(const MachineConfig& config, const EvaluationInput& in
 }
 
 // What that process says, whatever happens.
-std::string simulate_to_text(const MachineConfig& config, const EvaluationInput& input) {
+std::string simulate_to_bytes(const MachineConfig& config, const EvaluationInput& input) {
   EvaluationResult result;
   try {
     result = simulate(config, input);
@@ -91,7 +91,7 @@ std::string simulate_to_text(const MachineConfig& config, const EvaluationInput&
   } catch (const std::exception& error) {
     result = not_measured(Status::kFailed, error.what());
   }
-  return to_text(result);
+  return to_bytes(result);
 }
 
 // Whether the map is one for this machine.
@@ -117,7 +117,7 @@ EvaluationResult evaluate(const MachineConfig& config, const EvaluationInput& in
   try {
     config.validate();
     check_map(config, input);
-    WorkerProcess process([&](const std::string&) { return simulate_to_text(config, input); });
+    WorkerProcess process([&](const std::string&) { return simulate_to_bytes(config, input); });
     process.ask({});
     while (process.state() == State::kWorking) {
       if (interrupted()) return not_measured(Status::kInterrupted, "interrupted");

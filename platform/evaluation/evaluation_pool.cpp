@@ -13,6 +13,7 @@
 
 #include "platform/config/config_writer.hpp"
 #include "tlm/error.hpp"
+#include "traces/json_text.hpp"
 
 namespace parallax {
 namespace {
@@ -59,7 +60,7 @@ std::string answer(const EvaluationPool::Preparation& prepare, const std::string
       std::vector<MetricGroup>& groups = result.metrics.groups;
       groups.insert(groups.end(), one.further.groups.begin(), one.further.groups.end());
     }
-    result.configuration = to_json(one.configuration, false);
+    result.configuration = json_text(to_json(one.configuration, false));
   } catch (const UserError& error) {
     result = not_measured(Status::kInvalid, error.what());
   } catch (const std::exception& error) {
@@ -68,7 +69,7 @@ std::string answer(const EvaluationPool::Preparation& prepare, const std::string
   result.notes = std::move(notes);
   result.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   result.processor_seconds = processor_seconds() - processor_before;
-  return to_text(result);
+  return to_bytes(result);
 }
 
 // One round of variants through the processes.

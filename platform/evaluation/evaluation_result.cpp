@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "platform/evaluation/evaluation_result.hpp"
-#include "traces/json_text.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <protozero/exception.hpp>
+#include <protozero/pbf_message.hpp>
+#include <protozero/pbf_writer.hpp>
 #include <sstream>
 #include <utility>
+
+#include "traces/metric_bytes.hpp"
 
 namespace parallax {
 namespace {
@@ -18,6 +22,20 @@ using Status = EvaluationResult::Status;
 
 constexpr std::array<Status, 6> kStatuses{Status::kDone,   Status::kInvalid,     Status::kStuck,
                                           Status::kFailed, Status::kInterrupted, Status::kTooSlow};
+
+enum class ResultField : protozero::pbf_tag_type {
+  kStatus = 1,
+  kMessage = 2,
+  kNote = 3,
+  kWallSeconds = 4,
+  kProcessorSeconds = 5,
+  kConfiguration = 6,
+  kMetrics = 7,  // the last: bytes that are cut lack it
+};
+
+constexpr protozero::pbf_tag_type tag(ResultField field) {
+  return static_cast<protozero::pbf_tag_type>(field);
+}
 
 }  // namespace
 
@@ -81,30 +99,70 @@ Json timing_json(const MetricGroup& metrics, Json configuration) {
   return tree;
 }
 
-std::string to_text(const EvaluationResult& result) {
-  return json_text(Json{{"status", name(result.status)},
-                        {"message", result.message},
-                        {"notes", result.notes},
-                        {"wall_seconds", result.wall_seconds},
-                        {"processor_seconds", result.processor_seconds},
-                        {"metrics", to_json(result.metrics)},
-                        {"configuration", result.configuration}});
+Json timing_json(const EvaluationResult& result) {
+  return timing_json(result.metrics, Json::parse(result.configuration));
 }
 
-EvaluationResult evaluation_result(const std::string& text) try {
-  Json tree = Json::parse(text);
-  const std::string word = tree.at("status");
-  const Status* const status =
-      std::find_if(kStatuses.begin(), kStatuses.end(), [&](Status s) { return word == name(s); });
-  if (status == kStatuses.end()) return without_result(0);
-  EvaluationResult result = *status == Status::kDone ? measured(metrics_of(tree.at("metrics")))
-                                                     : not_measured(*status, tree.at("message"));
-  result.notes = tree.at("notes").get<std::vector<std::string>>();
-  result.wall_seconds = tree.at("wall_seconds");
-  result.processor_seconds = tree.at("processor_seconds");
-  result.configuration = std::move(tree.at("configuration"));
+std::string to_bytes(const EvaluationResult& result) {
+  std::string bytes;
+  protozero::pbf_writer out(bytes);
+  out.add_string(tag(ResultField::kStatus), name(result.status));
+  out.add_string(tag(ResultField::kMessage), result.message);
+  for (const std::string& note : result.notes) out.add_string(tag(ResultField::kNote), note);
+  out.add_double(tag(ResultField::kWallSeconds), result.wall_seconds);
+  out.add_double(tag(ResultField::kProcessorSeconds), result.processor_seconds);
+  out.add_string(tag(ResultField::kConfiguration), result.configuration);
+  out.add_bytes(tag(ResultField::kMetrics), to_bytes(result.metrics));
+  return bytes;
+}
+
+EvaluationResult evaluation_result(const std::string& bytes) try {
+  EvaluationResult read;
+  const Status* status = kStatuses.end();
+  MetricGroup metrics;
+  bool whole = false;
+  protozero::pbf_message<ResultField> in(bytes);
+  while (in.next()) {
+    switch (in.tag()) {
+      case ResultField::kStatus: {
+        const std::string word = in.get_string();
+        status = std::find_if(kStatuses.begin(), kStatuses.end(), [&](Status s) { return word == name(s); });
+        break;
+      }
+      case ResultField::kMessage:
+        read.message = in.get_string();
+        break;
+      case ResultField::kNote:
+        read.notes.push_back(in.get_string());
+        break;
+      case ResultField::kWallSeconds:
+        read.wall_seconds = in.get_double();
+        break;
+      case ResultField::kProcessorSeconds:
+        read.processor_seconds = in.get_double();
+        break;
+      case ResultField::kConfiguration:
+        read.configuration = in.get_string();
+        break;
+      case ResultField::kMetrics: {
+        const protozero::data_view view = in.get_view();
+        metrics = metrics_from_bytes({view.data(), view.size()});
+        whole = true;
+        break;
+      }
+      default:
+        return without_result(0);
+    }
+  }
+  if (status == kStatuses.end() || !whole) return without_result(0);
+  EvaluationResult result = *status == Status::kDone ? measured(std::move(metrics))
+                                                     : not_measured(*status, std::move(read.message));
+  result.notes = std::move(read.notes);
+  result.wall_seconds = read.wall_seconds;
+  result.processor_seconds = read.processor_seconds;
+  result.configuration = std::move(read.configuration);
   return result;
-} catch (const Json::exception&) {
+} catch (const protozero::exception&) {
   return without_result(0);
 } catch (const MetricError&) {
   return without_result(0);

@@ -40,12 +40,12 @@ struct EvaluationResult {
   double rate = 0;      ///< frames/s in the steady state; 0: a single frame has none
   Latencies latency;
   Limit limit;
-  std::int64_t disparities = 0;          ///< that are searched
-  MetricGroup metrics;                   ///< all that was measured; empty unless done
-  nlohmann::ordered_json configuration;  ///< of the machine, key by key, where a pool evaluated it
-  std::vector<std::string> notes;        ///< what was said of the input, one line each
-  double wall_seconds = 0;               ///< that it took, where a pool evaluated it
-  double processor_seconds = 0;          ///< likewise
+  std::int64_t disparities = 0;    ///< that are searched
+  MetricGroup metrics;             ///< all that was measured; empty unless done
+  std::string configuration;       ///< of the machine, key by key, as JSON, where a pool evaluated it
+  std::vector<std::string> notes;  ///< what was said of the input, one line each
+  double wall_seconds = 0;         ///< that it took, where a pool evaluated it
+  double processor_seconds = 0;    ///< likewise
 
   bool done() const { return status == Status::kDone; }
   std::string advice() const { return advice_in(message); }
@@ -63,10 +63,12 @@ const char* name(EvaluationResult::Status status);
 
 /// What timing.json holds.
 nlohmann::ordered_json timing_json(const MetricGroup& metrics, nlohmann::ordered_json configuration);
+/// Likewise, of one that a pool evaluated.
+nlohmann::ordered_json timing_json(const EvaluationResult& result);
 
-/// As text, to hand it from one process to another.
-std::string to_text(const EvaluationResult& result);
-/// From what to_text() made; kFailed from anything else.
-EvaluationResult evaluation_result(const std::string& text);
+/// As bytes (a protocol buffer), to hand it from one process to another.
+std::string to_bytes(const EvaluationResult& result);
+/// From what to_bytes() made; kFailed from anything else.
+EvaluationResult evaluation_result(const std::string& bytes);
 
 }  // namespace parallax

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -31,7 +32,10 @@ std::string identity_of(const PointIdentity& point) {
 
 StoredValue stored(const Metric* metric) {
   if (metric == nullptr) return {};
-  if (metric->is_number()) return metric->number();
+  if (metric->is_number()) {
+    const double number = metric->number();
+    return std::isfinite(number) ? StoredValue(number) : StoredValue();
+  }
   if (const auto* truth = std::get_if<bool>(&metric->value)) return *truth ? 1.0 : 0.0;
   if (const auto* word = std::get_if<std::string>(&metric->value)) return *word;
   return {};

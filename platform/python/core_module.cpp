@@ -139,7 +139,7 @@ py::list evaluate_words(
   py::list list;
   for (EvaluationResult& result : results) {
     const std::string timing =
-        result.done() ? json_text(timing_json(result.metrics, std::move(result.configuration))) : "";
+        result.done() ? json_text(timing_json(result)) : "";
     py::list notes;
     for (const std::string& note : result.notes) notes.append(py::bytes(note));
     list.append(py::make_tuple(name(result.status), py::bytes(result.message), notes, py::bytes(timing)));

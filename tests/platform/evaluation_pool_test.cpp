@@ -70,7 +70,7 @@ TEST_F(Pool, ResultsAreInTheOrderOfTheVariantsAndThoseOfAnyNumberOfProcesses) {
     ASSERT_EQ(results.size(), variants.size());
     EXPECT_NEAR(results[0].rate, rate_of(1e6), 0.5) << results[0].message;
     EXPECT_EQ(results[0].limit.part, "host");
-    EXPECT_EQ(results[0].configuration["link"]["host_pixel_rate"], 1'000'000);
+    EXPECT_EQ(timing_json(results[0])["configuration"]["link"]["host_pixel_rate"], 1'000'000);
     EXPECT_EQ(results[1].status, Status::kInvalid);
     EXPECT_NEAR(results[2].rate, rate_of(2e6), 1);
     EXPECT_EQ(results[3].status, Status::kStuck);
@@ -80,7 +80,7 @@ TEST_F(Pool, ResultsAreInTheOrderOfTheVariantsAndThoseOfAnyNumberOfProcesses) {
       result.metrics.group("run") = {};  // of this computer, as the next two
       result.wall_seconds = 0;
       result.processor_seconds = 0;
-      texts.push_back(to_text(result));
+      texts.push_back(to_bytes(result));
     }
     if (alone.empty()) alone = texts;
     EXPECT_EQ(texts, alone) << processes;

@@ -16,12 +16,12 @@ TEST(EvaluationResult, StatusesHaveNames) {
   EXPECT_STREQ(name(Status::kInterrupted), "interrupted");
 }
 
-TEST(EvaluationResult, WhatWasNotMeasuredComesBackFromItsText) {
+TEST(EvaluationResult, WhatWasNotMeasuredComesBackFromItsBytes) {
   for (const Status status : {Status::kInvalid, Status::kStuck, Status::kFailed, Status::kInterrupted}) {
     EvaluationResult result = not_measured(status, "what is wrong");
     result.notes = {"a note", "another"};
-    result.configuration["clocks"]["core_hz"] = 133e6;
-    const EvaluationResult back = evaluation_result(to_text(result));
+    result.configuration = R"({"clocks":{"core_hz":133e6}})";
+    const EvaluationResult back = evaluation_result(to_bytes(result));
     EXPECT_EQ(back.status, status) << name(status);
     EXPECT_EQ(back.message, "what is wrong");
     EXPECT_EQ(back.notes, result.notes);
@@ -30,18 +30,15 @@ TEST(EvaluationResult, WhatWasNotMeasuredComesBackFromItsText) {
 }
 
 TEST(EvaluationResult, WhatIsNoAnswerIsAFailure) {
-  const std::string whole = to_text(not_measured(Status::kStuck, "m"));
+  const std::string whole = to_bytes(not_measured(Status::kStuck, "m"));
   ASSERT_EQ(evaluation_result(whole).status, Status::kStuck);
+  // A status that is none, and one that is done without the metrics that every result has.
+  std::string asleep = whole;
+  asleep.replace(asleep.find("stuck"), 5, "sleep");
   for (const std::string& text :
-       {std::string(), std::string("no JSON"), std::string("[]"), std::string("{}"),
-        whole.substr(0, whole.size() - 1),
-        std::string(
-            R"({"status": "asleep", "message": "m", "notes": [], "metrics": {}, "configuration": {}})"),
-        std::string(R"({"status": 1, "message": "m", "notes": [], "metrics": {}, "configuration": {}})"),
-        std::string(R"({"status": "stuck", "notes": [], "metrics": {}, "configuration": {}})"),
-        // Done, and without the metrics that every result has.
-        std::string(
-            R"({"status": "done", "message": "", "notes": [], "metrics": {}, "configuration": {}})")}) {
+       {std::string(), std::string("no result"), std::string("[]"), std::string(300, '\xff'),
+        whole.substr(0, whole.size() - 1), whole.substr(0, whole.size() / 2), asleep,
+        to_bytes(not_measured(Status::kDone, ""))}) {
     const EvaluationResult result = evaluation_result(text);
     EXPECT_EQ(result.status, Status::kFailed) << text;
     EXPECT_EQ(result.message, "the simulation ended without a result") << text;

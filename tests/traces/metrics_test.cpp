@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "traces/metric_bytes.hpp"
 #include "traces/metric_table.hpp"
 
 namespace parallax::test {
@@ -127,6 +128,32 @@ TEST(MetricWriter, WritesWhatTheRowSays) {
 TEST(MetricWriter, WritesNothingThatIsNotInTheTable) {
   MetricGroup root;
   EXPECT_THROW(MetricWriter(root, table()).add("memory/left/kind", std::string("narrow")), std::logic_error);
+}
+
+TEST(Metrics, ComeBackFromBytesAsTheyWere) {
+  MetricGroup root = example();
+  root.metrics.push_back({"least", std::numeric_limits<std::int64_t>::min(), "", "", ""});
+  root.metrics.push_back({"most", std::numeric_limits<std::int64_t>::max(), "", "", ""});
+  root.metrics.push_back({"nothing", std::vector<std::int64_t>{}, "tokens", "", ""});
+  root.metrics.push_back({"below", std::vector<std::int64_t>{-1, 0, 1}, "tokens", "", ""});
+  root.metrics.push_back({"infinite", -std::numeric_limits<double>::infinity(), "s", "", ""});
+  root.metrics.push_back({"whole_real", 5.0, "s", "", ""});
+  root.metrics.push_back({"any_bytes", std::string("\0\xff", 2), "", "", ""});
+  root.group("empty");
+  const MetricGroup back = metrics_from_bytes(to_bytes(root));
+  EXPECT_EQ(to_bytes(back), to_bytes(root));
+  for (std::size_t i = 0; i < root.metrics.size(); ++i) {
+    EXPECT_EQ(back.metrics[i].name, root.metrics[i].name);
+    EXPECT_EQ(back.metrics[i].value, root.metrics[i].value) << root.metrics[i].name;
+  }
+  EXPECT_EQ(to_json(metrics_from_bytes(to_bytes(example()))), to_json(example()));
+  EXPECT_EQ(back.groups.back().name, "empty");
+}
+
+TEST(Metrics, BytesThatAreCutAreNone) {
+  const std::string bytes = to_bytes(example());
+  EXPECT_EQ(error_of([&] { metrics_from_bytes(bytes.substr(0, bytes.size() - 1)); }),
+            "these bytes are no metrics: end of buffer exception");
 }
 
 }  // namespace metrics_test
