@@ -9,17 +9,13 @@
 #include "platform/commands/timed_run.hpp"
 #include "platform/config/configuration_hash.hpp"
 #include "platform/config/preset.hpp"
-#include "platform/estimate/estimate.hpp"
-#include "platform/estimate/estimate_metrics.hpp"
 #include "platform/input/quoted_text.hpp"
 #include "platform/input/run_input.hpp"
 #include "platform/results/file_content.hpp"
-#include "platform/results/glossary.hpp"
 
 namespace parallax {
 namespace {
 
-constexpr const char* kUsualFamily = "7-series";
 // Of each a map is kept, some megabytes.
 constexpr std::size_t kInputsKept = 4;
 
@@ -52,32 +48,10 @@ std::string contents(const RunOptions& options) {
   return text;
 }
 
-// All that a device's file and those that it inherits from say.
-std::string device_text(std::optional<DeviceFile> device) {
-  if (!device) return "";
-  Schema schema;
-  describe(schema, *device);
-  FileContent content;
-  for (const EffectiveKey& key : effective_keys(schema)) {
-    const std::string line = fmt::format("{}.{}={}\n", key.section, key.name, to_toml(key.value));
-    content.add(line.data(), line.size());
-  }
-  return fmt::format(" on {} {:08x}", device->name, content.crc);
-}
-
 }  // namespace
 
 ExplorationInputs::ExplorationInputs(const ExplorationSpec& spec)
-    : spec_(spec), device_(device_of(spec)), device_text_(device_text(device_)) {}
-
-std::optional<DeviceFile> ExplorationInputs::device_of(const ExplorationSpec& spec) {
-  const std::vector<std::string> metrics = spec.named_metrics();
-  const bool asked = std::any_of(metrics.begin(), metrics.end(), [](const std::string& name) {
-    return find_estimate_metric(name) != nullptr;
-  });
-  if (!spec.device.empty()) return load_device(spec.device, preset_folders());
-  return asked ? std::optional(load_family(kUsualFamily, preset_folders())) : std::nullopt;
-}
+    : spec_(spec), estimate_(spec.device, spec.named_metrics()) {}
 
 std::vector<RunWord> ExplorationInputs::words(const ExplorationPoint& point) const {
   std::vector<RunWord> all = spec_.run;
@@ -139,7 +113,7 @@ PointIdentity ExplorationInputs::identify(const ExplorationPoint& point) {
       identity.input += (identity.input.empty() ? "" : " ") + shell_word(text);
   }
   identity.input += input.content;
-  identity.input += device_text_;
+  identity.input += estimate_.identity();
   identity.command = command(point);
   identity.seed = input.options.scene.seed;
   return identity;
@@ -150,12 +124,7 @@ EvaluationCase ExplorationInputs::prepare(const ExplorationPoint& point, const N
   EvaluationCase one{configuration(input.options, point), {}};
   one.input = input.inputs.prepare(one.configuration.machine, notice);
   one.input.command = command(point);
-  if (device_) {
-    const ResourceEstimate resources =
-        estimate(one.configuration.machine, *device_, {one.input.width, one.input.height});
-    add_resources(one.further, resources, *device_);
-    if (!spec_.device.empty()) add_device(one.further, resources, *device_);
-  }
+  estimate_.add_to(one);
   return one;
 }
 

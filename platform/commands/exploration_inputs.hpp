@@ -3,12 +3,11 @@
 
 #include <deque>
 #include <memory>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "platform/estimate/device_file.hpp"
+#include "platform/commands/case_estimate.hpp"
 #include "platform/evaluation/evaluation_inputs.hpp"
 #include "platform/explore/explorer.hpp"
 
@@ -40,15 +39,13 @@ class ExplorationInputs {
     std::string content{};  // of the files that it names
   };
 
-  static std::optional<DeviceFile> device_of(const ExplorationSpec& spec);
   Opened& opened(const ExplorationPoint& point);
   RunOptions options(const ExplorationPoint& point) const;
   Configuration configuration(const RunOptions& options, const ExplorationPoint& point) const;
   std::string command(const ExplorationPoint& point) const;
 
   const ExplorationSpec& spec_;
-  const std::optional<DeviceFile> device_;  // whose resources are asked for
-  const std::string device_text_;           // all that its file says
+  const CaseEstimate estimate_;
   std::deque<std::unique_ptr<Opened>> opened_;
 };
 

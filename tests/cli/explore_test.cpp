@@ -254,19 +254,20 @@ INSTANTIATE_TEST_SUITE_P(
     Of, WrongExploration,
     ::testing::Values(
         Wrong{"\"energy/frame_total\"", "\"energy/total\"",
-              "s.toml:17: energy/total is neither varied nor a number of a run; the nearest of these is "
-              "energy/power_total (parallax glossary)"},
+              "s.toml:17: no number of a run or an estimate is called energy/total, and no key that varies; "
+              "the "
+              "nearest is energy/power_total (parallax glossary)"},
         Wrong{"\"64x48\"", "\"64by48\"", "s.toml: --size: '64by48' is not a size such as 640x480"},
         Wrong{"timing-frames = 2", "timing-frames = \"two\"",
               "s.toml: Could not convert: --timing-frames = two"},
         Wrong{"rectified = true", "left = \"no.png\"",
               "s.toml: --right is missing: a pair needs --left and --right"},
         Wrong{"\"energy/frame_total\"", "\"quality/bad_1\"",
-              "s.toml:17: quality/bad_1 needs images, and explorations compute none"},
+              "s.toml:17: quality/bad_1 needs images, and none are computed"},
         Wrong{"\"energy/frame_total\"", "\"limit/part\"",
               "s.toml:17: limit/part is a word, and has no least or most"},
         Wrong{"\"energy/frame_total\"", "\"devices/zynq_7045/fits\"",
-              "s.toml:17: devices/zynq_7045/fits is not of the device that the file names: device = \"\""},
+              "s.toml:17: devices/zynq_7045/fits needs a device, and none is named"},
         Wrong{"[vary]", "[set]", "s.toml:8: clocks.core_hz: must be a number, true, false or text"}));
 
 TEST(Explore, SaysWhatIsWrongWithItsDatabase) {
