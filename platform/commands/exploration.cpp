@@ -12,6 +12,7 @@
 #include "platform/commands/run_folder.hpp"
 #include "platform/commands/timed_run.hpp"
 #include "platform/explore/exploration_table.hpp"
+#include "platform/explore/search_space.hpp"
 #include "platform/results/glossary.hpp"
 #include "tlm/error.hpp"
 
@@ -54,18 +55,44 @@ ExplorationReport Exploration::run(const ExplorationWatch& watch) {
                     [this](const ExplorationPoint& point) { return inputs_.identify(point); });
   ExplorationReport report;
   report.counts = explorer.run(watch.interrupted, watch.advance);
-  report.whole = report.counts.points == size_;
-  if (report.whole) store_->end();
+  if (report.counts.whole) {
+    store_->end();
+    size_ = report.counts.points;
+  }
   report.outcome = judge(spec_, *store_);
   write_tables(*folder_, report.outcome);
   return report;
+}
+
+std::optional<double> Exploration::machines() const {
+  if (spec_.sampling.method != SamplingMethod::kSearch) return std::nullopt;
+  return SearchSpace(spec_.axes).machines();
+}
+
+// Points with all inputs that there can be. Where a search has too many machines to go through, its
+// conditions and keys are left out, none of which bears on the input.
+ExplorationSpec Exploration::inputs_only() const {
+  ExplorationSpec spec = spec_;
+  if (spec_.sampling.method != SamplingMethod::kSearch) return spec;
+  spec.sampling = {};
+  spec.conditions.clear();
+  spec.links.clear();
+  const SearchSpace space(spec_.axes);
+  for (std::size_t i = 0; i < spec.axes.size(); ++i) {
+    if (!spec.axes[i].option) {
+      spec.axes[i].values = {space.values(Place(spec.axes.size(), 0))[i]};
+      spec.axes[i].span.reset();
+    }
+  }
+  return spec;
 }
 
 // What is wrong with the input of all points is one error, not a row for each.
 void Exploration::check_inputs() {
   std::optional<UserError> first;
   std::set<std::vector<std::string>> seen;
-  PointSource points(spec_);
+  const ExplorationSpec spec = inputs_only();
+  PointSource points(spec);
   while (const std::optional<ExplorationPoint> point = points.next()) {
     if (!seen.insert(command_words(inputs_.words(*point))).second) continue;
     try {
@@ -90,7 +117,8 @@ FolderPlan Exploration::plan() const {
   plan.writes = [](const std::string& name) { return name == kPoints || name == kFront; };
   plan.inputs.push_back({file_.string(), file_});
   std::set<std::vector<std::string>> seen;
-  PointSource points(spec_);
+  const ExplorationSpec spec = inputs_only();
+  PointSource points(spec);
   while (const std::optional<ExplorationPoint> point = points.next()) {
     const std::vector<RunWord> words = inputs_.words(*point);
     if (!seen.insert(command_words(words)).second) continue;
@@ -104,6 +132,7 @@ FolderPlan Exploration::plan() const {
 }
 
 std::size_t Exploration::count() const {
+  if (spec_.sampling.method == SamplingMethod::kSearch) return spec_.sampling.points;
   try {
     const std::size_t number = count_points(spec_, kLargestExploration);
     if (number == 0) throw UserError("no point fulfils the conditions");

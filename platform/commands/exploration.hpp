@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,7 +22,6 @@ namespace parallax {
 struct ExplorationReport {
   ExplorationCounts counts;
   ExplorationOutcome outcome;
-  bool whole = false;  ///< all points are there
 };
 
 /// What of an exploration is watched while it runs.
@@ -41,8 +41,10 @@ class Exploration {
   /// What varies, and the numbers that are shown, one column each.
   const std::vector<std::string>& names() const { return names_; }
   const std::vector<std::string>& metrics() const { return metrics_; }
-  /// How many points it has.
+  /// How many points it has; a search, before it has come to its end: at most.
   std::size_t size() const { return size_; }
+  /// Of a search: from how many machines it chooses, conditions aside.
+  std::optional<double> machines() const;
 
   /// Evaluates the points that the folder does not know, and writes its tables. Throws UserError.
   ExplorationReport run(const ExplorationWatch& watch);
@@ -54,6 +56,7 @@ class Exploration {
   std::size_t count() const;
   void check_metrics() const;
   void check_inputs();
+  ExplorationSpec inputs_only() const;
   FolderPlan plan() const;
   void write_tables(OutputFolder& folder, const ExplorationOutcome& outcome);
 

@@ -38,6 +38,9 @@ class ExplorationPrinter {
     if (context_.verbosity == Verbosity::kQuiet) return;
     context_.out << fmt::format("points              {} of {}: {}; {} evaluated now\n", counts.points,
                                 exploration_.size(), statuses(outcome), counts.evaluated);
+    if (const std::optional<double> machines = exploration_.machines())
+      context_.out << fmt::format("chosen from         {} machines, conditions aside\n",
+                                  grouped(fmt::format("{:.0f}", *machines)));
     if (outcome.fault)
       context_.out << fmt::format("not measured        {}; the first, point {}: {}\n",
                                   counts.points - outcome.done(), outcome.fault->number, outcome.fault->line);
@@ -76,6 +79,7 @@ class ExplorationPrinter {
         {"points", exploration_.size()},         {"there", counts.points},
         {"evaluated", counts.evaluated},         {"statuses", outcome.by_status},
         {"satisfied", outcome.satisfied.size()}, {"front", table.json(outcome.front)}};
+    if (const std::optional<double> machines = exploration_.machines()) tree["machines"] = *machines;
     if (outcome.fault)
       tree["first_fault"] = {{"point", outcome.fault->number}, {"message", outcome.fault->line}};
     if (outcome.nearest) tree["nearest"] = table.json({outcome.nearest->number}).front();
@@ -102,7 +106,7 @@ int explore(const ExploreOptions& options, CommandContext& context) {
                               [&](std::size_t more) { progress.advance(static_cast<std::int64_t>(more)); }});
   }
   ExplorationPrinter(exploration, report, options.json, context).print();
-  if (!report.whole)
+  if (!report.counts.whole)
     return interrupted_after(fmt::format("{} of {} points", report.counts.points, exploration.size()),
                              context, interruption);
   return report.outcome.satisfied.empty() ? kNotAsExpected : 0;

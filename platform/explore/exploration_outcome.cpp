@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "platform/explore/exploration_outcome.hpp"
 
-#include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 
 #include "platform/evaluation/evaluation_result.hpp"
 #include "platform/explore/judgement.hpp"
+#include "platform/explore/merit.hpp"
 
 namespace parallax {
 namespace {
@@ -15,7 +14,7 @@ namespace {
 // One point after the other; what is kept of each is its objectives.
 class Judge {
  public:
-  explicit Judge(const ExplorationSpec& spec) : spec_(spec), varied_(spec.varied_names()) {}
+  explicit Judge(const ExplorationSpec& spec) : spec_(spec), numbers_(spec) {}
 
   void look_at(const StoredPoint& point) {
     ++outcome_.by_status[point.result.status];
@@ -27,7 +26,7 @@ class Judge {
     NearestMiss worst{point.number, nullptr, 0};
     double most = 0;
     for (const Constraint& constraint : spec_.constraints) {
-      const std::optional<double> value = number(point, constraint.metric);
+      const std::optional<double> value = numbers_.of(point, constraint.metric);
       const double by = miss(constraint, value);
       missed += by;
       if (by > most) {
@@ -45,10 +44,10 @@ class Judge {
     }
     outcome_.satisfied.insert(point.number);
     if (spec_.objectives.empty()) return;
-    numbers_.push_back(point.number);
+    satisfied_.push_back(point.number);
     rows_.emplace_back();
     for (const Objective& objective : spec_.objectives)
-      rows_.back().push_back(number(point, objective.metric));
+      rows_.back().push_back(numbers_.of(point, objective.metric));
   }
 
   ExplorationOutcome outcome() {
@@ -57,34 +56,17 @@ class Judge {
       outcome_.front = outcome_.satisfied;
     } else {
       for (const std::size_t row : pareto_front(rows_, spec_.objectives))
-        outcome_.front.insert(numbers_[row]);
+        outcome_.front.insert(satisfied_[row]);
     }
     return std::move(outcome_);
   }
 
  private:
-  // Of a metric, or of a key that varies; none where it is no number.
-  std::optional<double> number(const StoredPoint& point, const std::string& name) const {
-    const auto key = std::find(varied_.begin(), varied_.end(), name);
-    if (key != varied_.end()) return number_in(point.values[static_cast<std::size_t>(key - varied_.begin())]);
-    const auto found = point.result.metrics.find(name);
-    if (found == point.result.metrics.end()) return std::nullopt;
-    const double* const value = std::get_if<double>(&found->second);
-    return value == nullptr ? std::nullopt : std::optional(*value);
-  }
-
-  static std::optional<double> number_in(const std::string& text) {
-    double value = 0;
-    const char* const end = text.data() + text.size();
-    const auto [last, error] = std::from_chars(text.data(), end, value);
-    return error == std::errc() && last == end ? std::optional(value) : std::nullopt;
-  }
-
   const ExplorationSpec& spec_;
-  const std::vector<std::string> varied_;
+  const PointNumbers numbers_;
   ExplorationOutcome outcome_;
   double least_missed_ = std::numeric_limits<double>::infinity();
-  std::vector<std::size_t> numbers_;  // of those satisfied
+  std::vector<std::size_t> satisfied_;  // by their numbers
   std::vector<std::vector<std::optional<double>>> rows_;
 };
 

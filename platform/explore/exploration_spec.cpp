@@ -23,11 +23,12 @@ namespace parallax {
 namespace {
 
 constexpr std::size_t kMostPoints = 1'000'000;
-constexpr std::array<std::pair<const char*, SamplingMethod>, 4> kMethods{
+constexpr std::array<std::pair<const char*, SamplingMethod>, 5> kMethods{
     {{"grid", SamplingMethod::kGrid},
      {"random", SamplingMethod::kRandom},
      {"latin-hypercube", SamplingMethod::kLatinHypercube},
-     {"sobol", SamplingMethod::kSobol}}};
+     {"sobol", SamplingMethod::kSobol},
+     {"search", SamplingMethod::kSearch}}};
 
 class Reader {
  public:
@@ -131,7 +132,9 @@ class Reader {
     for (const auto& [known, method] : kMethods) {
       if (name == known) return method;
     }
-    entry.fail(fmt::format("'{}' is none of grid, random, latin-hypercube, sobol", excerpt(name)));
+    std::vector<std::string> names;
+    for (const auto& [known, method] : kMethods) names.emplace_back(known);
+    entry.fail(fmt::format("'{}' is none of {}", excerpt(name), fmt::join(names, ", ")));
   }
 
   void read_constraints(const TomlPart& part) {
@@ -186,6 +189,10 @@ class Reader {
       throw UserError(fmt::format(
           "{}: disparities and matching.iterations exclude each other: both set the range", file_));
     if (spec_.axes.empty()) throw UserError(fmt::format("{}: nothing varies; [vary] says what does", file_));
+    if (spec_.sampling.method == SamplingMethod::kSearch && spec_.objectives.empty() &&
+        spec_.constraints.empty())
+      throw UserError(
+          fmt::format("{}: a search needs [objectives], [constraints] or both: what it searches for", file_));
     const bool spans = std::any_of(spec_.axes.begin(), spec_.axes.end(),
                                    [](const Axis& axis) { return axis.span.has_value(); });
     if (spans && spec_.sampling.method == SamplingMethod::kGrid)

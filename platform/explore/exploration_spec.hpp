@@ -35,11 +35,12 @@ enum class SamplingMethod {
   kRandom,          ///< each value by itself
   kLatinHypercube,  ///< each axis cut into as many parts as there are points, each of which occurs once
   kSobol,           ///< a sequence that fills the space evenly, whatever its length
+  kSearch,          ///< where the best are (search()), each step from the results of those before
 };
 
 struct SamplingPlan {
   SamplingMethod method = SamplingMethod::kGrid;
-  std::size_t points = 0;  ///< of all methods but the grid
+  std::size_t points = 0;  ///< of all methods but the grid; of a search, at most
   std::uint64_t seed = 1;
 };
 

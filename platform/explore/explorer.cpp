@@ -10,6 +10,10 @@
 #include <optional>
 #include <utility>
 
+#include "platform/explore/merit.hpp"
+#include "platform/explore/point_rules.hpp"
+#include "platform/explore/search.hpp"
+#include "platform/explore/search_space.hpp"
 #include "platform/results/result_schema.hpp"
 #include "platform/results/version.hpp"
 #include "tlm/error.hpp"
@@ -59,14 +63,57 @@ Explorer::Explorer(const ExplorationSpec& spec, ResultStore& store, EvaluationPo
 ExplorationCounts Explorer::run(const std::function<bool()>& interrupted, const Advance& advance) {
   interrupted_ = interrupted;
   advance_ = advance;
+  counts_.whole = spec_.sampling.method == SamplingMethod::kSearch ? search_for_best() : look_at_all();
+  return counts_;
+}
+
+// Whether none is missing.
+bool Explorer::look_at_all() {
   PointSource points(spec_);
+  std::size_t seen = 0;
   while (!interrupted_()) {
     const std::optional<ExplorationPoint> point = points.next();
-    if (point) look_at(*point);
+    if (point) {
+      look_at(*point);
+      ++seen;
+    }
     if (!point || waiting_.size() == kAtATime) evaluate();
-    if (!point) break;
+    if (!point) return counts_.points == seen;
   }
-  return counts_;
+  return false;
+}
+
+// Points have their numbers in the order in which the search wants them, which is the same each time.
+bool Explorer::search_for_best() {
+  const SearchSpace space(spec_.axes);
+  PointRules rules(spec_);
+  std::size_t number = 0;
+  const auto evaluate_places = [&](const std::vector<Place>& places) {
+    std::vector<std::optional<std::size_t>> numbers;
+    for (const Place& place : places) {
+      std::vector<std::string> values = space.values(place);
+      if (!rules.complete(values)) {
+        numbers.emplace_back();
+        continue;
+      }
+      look_at({number, std::move(values)});
+      numbers.emplace_back(number++);
+    }
+    evaluate();
+    std::vector<Merit> merits;
+    for (const std::optional<std::size_t>& known : numbers) {
+      if (!known) {
+        merits.emplace_back();
+        continue;
+      }
+      const std::optional<StoredPoint> point = store_.point(*known, metrics_);
+      if (!point || interrupted_()) break;
+      merits.push_back(merit_of(spec_, *point));
+    }
+    return merits;
+  };
+  return search({space.sizes(), spec_.sampling.points, spec_.sampling.seed}, evaluate_places) !=
+         SearchEnd::kInterrupted;
 }
 
 void Explorer::look_at(const ExplorationPoint& point) {

@@ -26,6 +26,7 @@ struct ExplorationCounts {
   std::size_t points = 0;     ///< those that are there
   std::size_t evaluated = 0;  ///< now
   std::size_t not_done = 0;   ///< invalid, stuck or failed
+  bool whole = false;         ///< none is missing
 };
 
 /// Metrics that are kept of every point: what the specification names, then some that most ask for, each
@@ -47,6 +48,8 @@ class Explorer {
   ExplorationCounts run(const std::function<bool()>& interrupted, const Advance& advance);
 
  private:
+  bool look_at_all();
+  bool search_for_best();
   void look_at(const ExplorationPoint& point);
   void evaluate();
   void take(StoredPoint& point, EvaluationResult result);

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "platform/explore/exploration_spec.hpp"
-#include "platform/explore/expression.hpp"
+#include "platform/explore/point_rules.hpp"
 #include "platform/explore/sampling.hpp"
 
 namespace parallax {
@@ -30,13 +30,9 @@ class PointSource {
   std::optional<ExplorationPoint> next();
 
  private:
-  bool fulfils_conditions(std::vector<std::string>& values);
-
   const ExplorationSpec& spec_;
   Sampling sampling_;
-  std::vector<std::string> names_;
-  std::vector<Expression> links_;
-  std::vector<Expression> conditions_;
+  PointRules rules_;
   std::size_t found_ = 0;
   std::size_t drawn_ = 0;
 };

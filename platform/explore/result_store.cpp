@@ -56,6 +56,11 @@ StoredValue value_of(const SQLite::Column& column) {
   return column.getDouble();
 }
 
+constexpr const char* kPointQuery = R"(
+  SELECT number, identity, configuration, input, status, message, limit_part, command, schema, revision, seed,
+         host, wall_seconds, processor_seconds, result
+  FROM point JOIN result ON result.id = point.result)";
+
 }  // namespace
 
 // Statements are prepared once: there are many thousands of points.
@@ -111,6 +116,8 @@ struct ResultStore::Database {
   void put(std::int64_t result, const std::map<std::string, StoredValue>& metrics);
   void put(std::size_t number, const std::vector<std::string>& values, std::int64_t result);
   bool has_metric(std::int64_t result, const std::string& name);
+  // Of a row of kPointQuery.
+  StoredPoint read_point(SQLite::Statement& points, const std::vector<std::string>& metrics);
 
   const std::string file;
   SQLite::Database sqlite;
@@ -178,6 +185,37 @@ bool ResultStore::Database::has_metric(std::int64_t result, const std::string& n
   query.bind(1, result);
   query.bind(2, name);
   return query.executeStep();
+}
+
+StoredPoint ResultStore::Database::read_point(SQLite::Statement& points,
+                                              const std::vector<std::string>& metrics) {
+  StoredPoint point;
+  int column = 0;
+  const auto text = [&] { return points.getColumn(column++).getString(); };
+  point.number = static_cast<std::size_t>(points.getColumn(column++).getInt64());
+  StoredResult& result = point.result;
+  for (std::string* field : {&result.identity, &result.configuration, &result.input, &result.status,
+                             &result.message, &result.limit, &result.command})
+    *field = text();
+  result.schema = points.getColumn(column++).getInt64();
+  result.revision = text();
+  result.seed = static_cast<std::uint64_t>(points.getColumn(column++).getInt64());
+  result.host = text();
+  result.wall_seconds = points.getColumn(column++).getDouble();
+  result.processor_seconds = points.getColumn(column++).getDouble();
+  const std::int64_t id = points.getColumn(column).getInt64();
+  SQLite::Statement& settings =
+      statement("SELECT value FROM setting WHERE exploration = ?1 AND number = ?2 ORDER BY place");
+  settings.bind(1, exploration);
+  settings.bind(2, static_cast<std::int64_t>(point.number));
+  while (settings.executeStep()) point.values.push_back(settings.getColumn(0).getString());
+  for (const std::string& name : metrics) {
+    SQLite::Statement& query = statement("SELECT value FROM metric WHERE result = ?1 AND name = ?2");
+    query.bind(1, id);
+    query.bind(2, name);
+    if (query.executeStep()) result.metrics[name] = value_of(query.getColumn(0));
+  }
+  return point;
 }
 
 ResultStore::ResultStore(const std::filesystem::path& file) {
@@ -270,6 +308,17 @@ bool ResultStore::has(std::size_t number, std::int64_t result) {
   });
 }
 
+std::optional<StoredPoint> ResultStore::point(std::size_t number, const std::vector<std::string>& metrics) {
+  return database_->guarded([&]() -> std::optional<StoredPoint> {
+    SQLite::Statement points(database_->sqlite,
+                             std::string(kPointQuery) + " WHERE exploration = ? AND number = ?");
+    points.bind(1, database_->exploration);
+    points.bind(2, static_cast<std::int64_t>(number));
+    if (!points.executeStep()) return std::nullopt;
+    return database_->read_point(points, metrics);
+  });
+}
+
 void ResultStore::describe(const std::string& metric, const std::string& unit, const std::string& meaning) {
   database_->guarded([&] {
     SQLite::Statement& insert = database_->statement("INSERT OR REPLACE INTO metric_name VALUES(?1, ?2, ?3)");
@@ -291,41 +340,10 @@ std::string ResultStore::unit(const std::string& metric) {
 void ResultStore::each_point(const std::vector<std::string>& metrics,
                              const std::function<void(const StoredPoint&)>& take) {
   database_->guarded([&] {
-    SQLite::Statement points(database_->sqlite, R"(
-      SELECT number, identity, configuration, input, status, message, limit_part, command, schema, revision,
-             seed, host, wall_seconds, processor_seconds, result
-      FROM point JOIN result ON result.id = point.result WHERE exploration = ? ORDER BY number)");
+    SQLite::Statement points(database_->sqlite,
+                             std::string(kPointQuery) + " WHERE exploration = ? ORDER BY number");
     points.bind(1, database_->exploration);
-    while (points.executeStep()) {
-      StoredPoint point;
-      int column = 0;
-      const auto text = [&] { return points.getColumn(column++).getString(); };
-      point.number = static_cast<std::size_t>(points.getColumn(column++).getInt64());
-      StoredResult& result = point.result;
-      for (std::string* field : {&result.identity, &result.configuration, &result.input, &result.status,
-                                 &result.message, &result.limit, &result.command})
-        *field = text();
-      result.schema = points.getColumn(column++).getInt64();
-      result.revision = text();
-      result.seed = static_cast<std::uint64_t>(points.getColumn(column++).getInt64());
-      result.host = text();
-      result.wall_seconds = points.getColumn(column++).getDouble();
-      result.processor_seconds = points.getColumn(column++).getDouble();
-      const std::int64_t id = points.getColumn(column).getInt64();
-      SQLite::Statement& settings = database_->statement(
-          "SELECT value FROM setting WHERE exploration = ?1 AND number = ?2 ORDER BY place");
-      settings.bind(1, database_->exploration);
-      settings.bind(2, static_cast<std::int64_t>(point.number));
-      while (settings.executeStep()) point.values.push_back(settings.getColumn(0).getString());
-      for (const std::string& name : metrics) {
-        SQLite::Statement& query =
-            database_->statement("SELECT value FROM metric WHERE result = ?1 AND name = ?2");
-        query.bind(1, id);
-        query.bind(2, name);
-        if (query.executeStep()) result.metrics[name] = value_of(query.getColumn(0));
-      }
-      take(point);
-    }
+    while (points.executeStep()) take(database_->read_point(points, metrics));
   });
 }
 

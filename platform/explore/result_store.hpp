@@ -72,6 +72,8 @@ class ResultStore {
   void add(std::size_t number, const std::vector<std::string>& values, std::int64_t result);
   /// Whether the exploration has this point, with this result.
   bool has(std::size_t number, std::int64_t result);
+  /// A point of the exploration, if it is there, with these metrics.
+  std::optional<StoredPoint> point(std::size_t number, const std::vector<std::string>& metrics);
   /// Says what a metric is measured in.
   void describe(const std::string& metric, const std::string& unit, const std::string& meaning);
   std::string unit(const std::string& metric);

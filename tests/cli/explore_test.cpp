@@ -8,6 +8,7 @@
 #include <csignal>
 #include <nlohmann/json.hpp>
 #include <random>
+#include <set>
 #include <thread>
 
 #include "tests/cli/program.hpp"
@@ -93,14 +94,16 @@ pid_t begin_long_one(const test::Program& program, const std::string& arguments)
   return child;
 }
 
-// Ended at any moment, it goes on where it was: all points come, none twice, and the tables are the same.
-TEST(Explore, SurvivesItsEndAtAnyMoment) {
+// Ended at any moment, an exploration goes on where it was: all points come, none twice, and the tables are
+// the same.
+void end_at_any_moment(const std::string& spec) {
   const test::Program whole;
-  whole.folder().write("s.toml", with_frames("12"));
-  ASSERT_EQ(whole("explore s.toml --out out").code, 0);
+  whole.folder().write("s.toml", spec);
+  const test::Outcome at_once = whole("explore s.toml --out out --json");
+  ASSERT_EQ(at_once.code, 0) << at_once.err;
   std::mt19937 random(11);
   const test::Program program;
-  program.folder().write("s.toml", with_frames("12"));
+  program.folder().write("s.toml", spec);
   const auto known = [&program] {
     return std::filesystem::exists(program / "out/results.db") &&
                    count(program, "SELECT count(*) FROM sqlite_master") != 0
@@ -118,9 +121,61 @@ TEST(Explore, SurvivesItsEndAtAnyMoment) {
   }
   const test::Outcome last = program("explore s.toml --out out --json");
   EXPECT_EQ(last.code, 0) << last.err;
-  EXPECT_EQ(json_of(last)["evaluated"], 16 - before) << "what is known is not evaluated again";
+  EXPECT_EQ(json_of(last)["evaluated"], json_of(at_once)["evaluated"].get<int>() - before)
+      << "what is known is not evaluated again";
   EXPECT_EQ(program.read("out/points.csv"), whole.read("out/points.csv"));
   EXPECT_EQ(program.read("out/front.csv"), whole.read("out/front.csv"));
+}
+
+TEST(Explore, SurvivesItsEndAtAnyMoment) { end_at_any_moment(with_frames("12")); }
+
+constexpr const char* kLargeSpace = R"(
+[run]
+preset = "core-alone"
+rectified = true
+size = "64x48"
+timing-frames = 2
+[vary]
+clocks.core_hz = "50e6:200e6:10e6"
+matching.parallelism = [4, 8, 16, 32]
+streams.default_depth = [4, 8, 16, 32]
+[link]
+matching.iterations = "64 / matching.parallelism"
+[constraints]
+"performance/frame_rate" = { at_least = 3000 }
+[objectives]
+"resources/lut" = "least"
+clocks.core_hz = "least"
+)";
+
+TEST(Explore, SearchSurvivesItsEndAtAnyMoment) {
+  end_at_any_moment(std::string(kLargeSpace) + "[sampling]\nmethod = 'search'\npoints = 40\n");
+}
+
+// The same front as all of the space has, from a quarter of it.
+TEST(Explore, SearchesALargeSpace) {
+  const test::Program program;
+  program.folder().write("all.toml", kLargeSpace);
+  program.folder().write("some.toml",
+                         std::string(kLargeSpace) + "[sampling]\nmethod = 'search'\npoints = 64\n");
+  const nlohmann::json all = json_of(program("explore all.toml --out all --json"));
+  const test::Outcome outcome = program("explore some.toml --out some --json");
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  const nlohmann::json some = json_of(outcome);
+  EXPECT_EQ(all["points"], 256);
+  EXPECT_EQ(some["points"], 64);
+  EXPECT_EQ(some["machines"], 256);
+  const auto costs = [](const nlohmann::json& tree) {
+    std::set<std::pair<double, std::string>> front;
+    for (const nlohmann::json& point : tree["front"])
+      front.emplace(point["metrics"]["resources/lut"]["value"], point["settings"]["clocks.core_hz"]);
+    return front;
+  };
+  EXPECT_EQ(costs(some), costs(all)) << some["front"] << all["front"];
+  EXPECT_FALSE(costs(all).empty());
+  EXPECT_NE(program("explore some.toml --out some")
+                .out.find("\nchosen from         256 machines, conditions aside\n"),
+            std::string::npos);
 }
 
 TEST(Explore, StopsInAnOrderlyWay) {
