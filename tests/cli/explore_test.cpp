@@ -8,7 +8,6 @@
 #include <csignal>
 #include <nlohmann/json.hpp>
 #include <random>
-#include <set>
 #include <thread>
 
 #include "tests/cli/program.hpp"
@@ -145,14 +144,13 @@ matching.iterations = "64 / matching.parallelism"
 "performance/frame_rate" = { at_least = 3000 }
 [objectives]
 "resources/lut" = "least"
-clocks.core_hz = "least"
 )";
 
 TEST(Explore, SearchSurvivesItsEndAtAnyMoment) {
   end_at_any_moment(std::string(kLargeSpace) + "[sampling]\nmethod = 'search'\npoints = 40\n");
 }
 
-// The same front as all of the space has, from a quarter of it.
+// The same least as all of the space has, from a quarter of it.
 TEST(Explore, SearchesALargeSpace) {
   const test::Program program;
   program.folder().write("all.toml", kLargeSpace);
@@ -165,14 +163,9 @@ TEST(Explore, SearchesALargeSpace) {
   EXPECT_EQ(all["points"], 256);
   EXPECT_EQ(some["points"], 64);
   EXPECT_EQ(some["machines"], 256);
-  const auto costs = [](const nlohmann::json& tree) {
-    std::set<std::pair<double, std::string>> front;
-    for (const nlohmann::json& point : tree["front"])
-      front.emplace(point["metrics"]["resources/lut"]["value"], point["settings"]["clocks.core_hz"]);
-    return front;
-  };
-  EXPECT_EQ(costs(some), costs(all)) << some["front"] << all["front"];
-  EXPECT_FALSE(costs(all).empty());
+  const auto least = [](const nlohmann::json& tree) { return tree["front"][0]["metrics"]["resources/lut"]; };
+  EXPECT_EQ(least(some), least(all));
+  EXPECT_GT(least(all)["value"], 0);
   EXPECT_NE(program("explore some.toml --out some")
                 .out.find("\nchosen from         256 machines, conditions aside\n"),
             std::string::npos);
