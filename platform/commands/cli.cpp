@@ -62,6 +62,7 @@ std::string one_line(const std::string& text) {
 void add_commands(CLI::App& app, CommandContext& context) {
   add_run_command(app, context);
   add_explore_command(app, context);
+  add_merge_command(app, context);
   add_ask_command(app, context);
   add_config_command(app, context);
   add_map_command(app, context);

@@ -22,43 +22,76 @@ namespace {
 constexpr std::size_t kLargestExploration = 1'000'000;
 // So many inputs that cannot be opened are all.
 constexpr std::size_t kInputsTried = 100;
+constexpr const char* kDatabase = "results.db";
 constexpr const char* kPoints = "points.csv";
 constexpr const char* kFront = "front.csv";
 
 }  // namespace
 
-Exploration::Exploration(const std::filesystem::path& spec, const std::filesystem::path& out)
+Exploration::Exploration(const std::filesystem::path& spec, const std::filesystem::path& out,
+                         PointShare share)
     : file_(spec),
       out_(out),
+      share_(share),
       spec_(read_exploration_spec(spec, timed_run_options())),
       names_(spec_.varied_names()),
       metrics_(spec_.named_metrics()),
       inputs_(spec_) {
   if (metrics_.empty()) metrics_ = kept_metrics(spec_);
   check_metrics();
-  size_ = count();
+  if (share_.parts > 1 && spec_.sampling.method == SamplingMethod::kSearch)
+    fail("a search cannot be shared: each of its points follows from those before");
+  size_ = share_.size(count());
   check_inputs();
 }
 
 ExplorationReport Exploration::run(const ExplorationWatch& watch) {
-  folder_ = std::make_unique<OutputFolder>(out_, plan());
-  store_ = std::make_unique<ResultStore>(out_ / "results.db");
+  open({});
+  EvaluationPool pool([this](const Variant& variant, const NoticeSink& notice) {
+    return inputs_.prepare({0, variant.assignments}, notice);
+  });
+  return look(&pool, watch);
+}
+
+ExplorationReport Exploration::merge(const std::vector<std::filesystem::path>& folders) {
+  std::vector<NamedInput> databases;
+  for (const std::filesystem::path& folder : folders) {
+    const std::filesystem::path database = folder / kDatabase;
+    if (!std::filesystem::is_regular_file(database))
+      throw UserError(
+          fmt::format("{}: no {} in it: not the folder of an exploration", folder.string(), kDatabase));
+    std::error_code ignored;
+    if (std::filesystem::equivalent(folder, out_, ignored))
+      throw UserError(
+          fmt::format("{}: is the folder that is written; the others are merged into it", folder.string()));
+    databases.push_back({database.string(), database});
+  }
+  open(databases);
+  for (const NamedInput& database : databases) store_->take_from(database.path);
+  return look(nullptr, {[] { return false; }, [](std::size_t) {}});
+}
+
+void Exploration::open(std::vector<NamedInput> further_inputs) {
+  FolderPlan all = plan();
+  for (NamedInput& input : further_inputs) all.inputs.push_back(std::move(input));
+  folder_ = std::make_unique<OutputFolder>(out_, std::move(all));
+  store_ = std::make_unique<ResultStore>(out_ / kDatabase);
   store_->begin(spec_.text, names_);
   for (const std::string& name : kept_metrics(spec_)) {
     const MetricInfo& info = require_metric(name, file_.string());
     store_->describe(name, info.unit, info.description);
   }
-  EvaluationPool pool([this](const Variant& variant, const NoticeSink& notice) {
-    return inputs_.prepare({0, variant.assignments}, notice);
-  });
-  Explorer explorer(spec_, *store_, pool,
-                    [this](const ExplorationPoint& point) { return inputs_.identify(point); });
+}
+
+// Without a pool, at what is known.
+ExplorationReport Exploration::look(EvaluationPool* pool, const ExplorationWatch& watch) {
+  Explorer explorer(
+      spec_, *store_, pool, [this](const ExplorationPoint& point) { return inputs_.identify(point); },
+      share_);
   ExplorationReport report;
   report.counts = explorer.run(watch.interrupted, watch.advance);
-  if (report.counts.whole) {
-    store_->end();
-    size_ = report.counts.points;
-  }
+  if (report.counts.whole && share_.parts == 1) store_->end();
+  if (report.counts.whole) size_ = report.counts.points;
   report.outcome = judge(spec_, *store_);
   write_tables(*folder_, report.outcome);
   return report;

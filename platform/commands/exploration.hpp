@@ -13,6 +13,7 @@
 #include "platform/explore/exploration_outcome.hpp"
 #include "platform/explore/exploration_spec.hpp"
 #include "platform/explore/explorer.hpp"
+#include "platform/explore/point_share.hpp"
 #include "platform/explore/result_store.hpp"
 #include "platform/results/output_folder.hpp"
 
@@ -34,24 +35,30 @@ struct ExplorationWatch {
 /// rest.
 class Exploration {
  public:
-  /// Throws UserError: the specification is wrong, no point fulfils its conditions or has a possible input.
-  Exploration(const std::filesystem::path& spec, const std::filesystem::path& out);
+  /// `share`: the points that are evaluated here. Throws UserError: the specification is wrong, no point
+  /// fulfils its conditions or has a possible input, or a search is to be shared.
+  Exploration(const std::filesystem::path& spec, const std::filesystem::path& out, PointShare share = {});
 
   const ExplorationSpec& spec() const { return spec_; }
   /// What varies, and the numbers that are shown, one column each.
   const std::vector<std::string>& names() const { return names_; }
   const std::vector<std::string>& metrics() const { return metrics_; }
-  /// How many points it has; a search, before it has come to its end: at most.
+  /// How many points it has, or its share; a search, before it has come to its end: at most.
   std::size_t size() const { return size_; }
   /// Of a search: from how many machines it chooses, conditions aside.
   std::optional<double> machines() const;
 
   /// Evaluates the points that the folder does not know, and writes its tables. Throws UserError.
   ExplorationReport run(const ExplorationWatch& watch);
-  /// What run() found; after it.
+  /// Takes over what these folders of the same exploration have, and writes its tables; evaluates nothing.
+  /// Throws UserError: one of them is none.
+  ExplorationReport merge(const std::vector<std::filesystem::path>& folders);
+  /// What these found; after them.
   ResultStore& store() { return *store_; }
 
  private:
+  void open(std::vector<NamedInput> further_inputs);
+  ExplorationReport look(EvaluationPool* pool, const ExplorationWatch& watch);
   [[noreturn]] void fail(const std::string& line) const;
   std::size_t count() const;
   void check_metrics() const;
@@ -62,6 +69,7 @@ class Exploration {
 
   const std::filesystem::path file_;
   const std::filesystem::path out_;
+  const PointShare share_;
   const ExplorationSpec spec_;
   const std::vector<std::string> names_;
   std::vector<std::string> metrics_;

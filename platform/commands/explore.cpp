@@ -4,14 +4,19 @@
 #include <fmt/format.h>
 
 #include <cstdint>
+#include <cstdio>
 
 #include "platform/commands/command_context.hpp"
 #include "platform/commands/exit_codes.hpp"
 #include "platform/commands/exploration.hpp"
 #include "platform/commands/interruption.hpp"
+#include "platform/commands/job_script.hpp"
 #include "platform/commands/notes.hpp"
 #include "platform/explore/exploration_table.hpp"
+#include "platform/input/quoted_text.hpp"
+#include "platform/results/output_folder.hpp"
 #include "platform/results/progress.hpp"
+#include "tlm/error.hpp"
 #include "traces/json_text.hpp"
 #include "traces/number_text.hpp"
 
@@ -92,11 +97,61 @@ class ExplorationPrinter {
   CommandContext& context_;
 };
 
+// "2/4".
+PointShare read_share(const std::string& text) {
+  PointShare share;
+  if (text.empty()) return share;
+  char rest = 0;
+  std::size_t number = 0;
+  // Digits alone: the library would take a sign, and blanks before it.
+  const bool digits = text.find_first_not_of("0123456789/") == std::string::npos;
+  if (!digits || std::sscanf(text.c_str(), "%9zu/%9zu%c", &number, &share.parts, &rest) != 2 || number < 1 ||
+      number > share.parts)
+    throw UserError(fmt::format("--shard '{}': must be NUMBER/PARTS, as 1/4 to 4/4", excerpt(text)));
+  share.index = number - 1;
+  return share;
+}
+
+int write_job(const ExploreOptions& options, CommandContext& context) {
+  if (!options.shard.empty())
+    throw UserError("--emit and --shard exclude each other: each task has its shard");
+  if (options.tasks == 0) throw UserError("--emit needs --tasks: how many tasks the job has");
+  const Exploration exploration(options.spec, options.out);
+  const JobScript script(options.emit, options.spec, options.out, options.tasks);
+  if (options.tasks > exploration.size())
+    throw UserError(fmt::format("--tasks {}: there are {} points; a task has one or more", options.tasks,
+                                exploration.size()));
+  if (exploration.machines())
+    throw UserError("--emit: a search cannot be shared: each of its points follows from those before");
+  FolderPlan plan;
+  plan.writes = [&script](const std::string& name) { return name == script.name(); };
+  plan.inputs.push_back({options.spec.string(), options.spec});
+  OutputFolder folder(options.out, plan);
+  folder.write(script.name(), script.text());
+  folder.publish();
+  if (options.json) {
+    const nlohmann::ordered_json tree{{"job", (options.out / script.name()).string()},
+                                      {"tasks", options.tasks},
+                                      {"points", exploration.size()},
+                                      {"submit", script.submit()},
+                                      {"merge", script.merge()}};
+    context.out << json_text(tree, 2) << '\n';
+  } else if (context.verbosity != Verbosity::kQuiet) {
+    context.out << fmt::format(
+        "job                 {} tasks, {} points; a shard each\nsubmit              {}\nthen                "
+        "{}\n",
+        options.tasks, exploration.size(), script.submit(), script.merge());
+  }
+  return 0;
+}
+
 }  // namespace
 
 int explore(const ExploreOptions& options, CommandContext& context) {
+  if (!options.emit.empty()) return write_job(options, context);
+  if (options.tasks != 0) throw UserError("--tasks says how many --emit writes a job for");
   const Interruption interruption;
-  Exploration exploration(options.spec, options.out);
+  Exploration exploration(options.spec, options.out, read_share(options.shard));
   ExplorationReport report;
   {
     Notes notes(context);
@@ -109,6 +164,21 @@ int explore(const ExploreOptions& options, CommandContext& context) {
   if (!report.counts.whole)
     return interrupted_after(fmt::format("{} of {} points", report.counts.points, exploration.size()),
                              context, interruption);
+  // Whether any point satisfies, all shards together show.
+  return options.shard.empty() && report.outcome.satisfied.empty() ? kNotAsExpected : 0;
+}
+
+int merge(const MergeOptions& options, CommandContext& context) {
+  Exploration exploration(options.spec, options.out);
+  const ExplorationReport report = exploration.merge(options.folders);
+  ExplorationPrinter(exploration, report, options.json, context).print();
+  if (!report.counts.whole) {
+    Notes notes(context);
+    notes(fmt::format("{} of {} points are missing; parallax explore {} --out {} evaluates them",
+                      exploration.size() - report.counts.points, exploration.size(),
+                      shell_word(options.spec.string()), shell_word(options.out.string())));
+    return kNotAsExpected;
+  }
   return report.outcome.satisfied.empty() ? kNotAsExpected : 0;
 }
 

@@ -12,4 +12,6 @@ struct CommandContext;
 /// `parallax explore`.
 void add_explore_command(CLI::App& app, CommandContext& context);
 
+void add_merge_command(CLI::App& app, CommandContext& context);
+
 }  // namespace parallax

@@ -134,8 +134,7 @@ class Sweep {
       context_.out << table_.row(point, result, verdict ? &verdict->limits : nullptr) << std::flush;
     if (folder_ && result.done()) {
       const std::string name = fmt::format("point_{:04}/", point);
-      folder_->write(name + "timing.json",
-                     json_text(timing_json(result), 2) + "\n");
+      folder_->write(name + "timing.json", json_text(timing_json(result), 2) + "\n");
       if (verdict) folder_->write(name + "relaxations.json", json_text(to_json(verdict->limits), 2) + "\n");
       folder_->publish();
     }

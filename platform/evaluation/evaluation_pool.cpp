@@ -2,6 +2,7 @@
 #include "platform/evaluation/evaluation_pool.hpp"
 
 #include <poll.h>
+#include <sched.h>
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -166,7 +167,12 @@ class Round {
 }  // namespace
 
 unsigned EvaluationPool::usual_processes() {
-  return std::clamp(std::thread::hardware_concurrency(), 1U, kMostProcesses);
+  // Those that this process may use: a task of a cluster has its share of a computer.
+  cpu_set_t usable;
+  const unsigned processors = ::sched_getaffinity(0, sizeof usable, &usable) == 0
+                                  ? static_cast<unsigned>(CPU_COUNT(&usable))
+                                  : std::thread::hardware_concurrency();
+  return std::clamp(processors, 1U, kMostProcesses);
 }
 
 EvaluationPool::EvaluationPool(const Preparation& prepare, unsigned processes) {

@@ -246,7 +246,8 @@ ExplorationSpec read_exploration_spec(const std::filesystem::path& file,
   const toml::table table = read_toml(file, "exploration");
   ExplorationSpec spec = Reader(file, run_options).read(table);
   std::ostringstream text;
-  text << table;
+  // The table alone has lost the order in which the points are numbered.
+  text << table << fmt::format("\n# varies: {}", fmt::join(spec.varied_names(), ", "));
   spec.text = text.str();
   return spec;
 }

@@ -57,8 +57,14 @@ std::vector<std::string> kept_metrics(const ExplorationSpec& spec) {
   return names;
 }
 
-Explorer::Explorer(const ExplorationSpec& spec, ResultStore& store, EvaluationPool& pool, Identify identify)
-    : spec_(spec), store_(store), pool_(pool), identify_(std::move(identify)), metrics_(kept_metrics(spec)) {}
+Explorer::Explorer(const ExplorationSpec& spec, ResultStore& store, EvaluationPool* pool, Identify identify,
+                   PointShare share)
+    : spec_(spec),
+      store_(store),
+      pool_(pool),
+      identify_(std::move(identify)),
+      share_(share),
+      metrics_(kept_metrics(spec)) {}
 
 ExplorationCounts Explorer::run(const std::function<bool()>& interrupted, const Advance& advance) {
   interrupted_ = interrupted;
@@ -73,6 +79,7 @@ bool Explorer::look_at_all() {
   std::size_t seen = 0;
   while (!interrupted_()) {
     const std::optional<ExplorationPoint> point = points.next();
+    if (point && !share_.has(point->number)) continue;
     if (point) {
       look_at(*point);
       ++seen;
@@ -161,9 +168,14 @@ bool Explorer::stands(const StoredPoint& point) {
 }
 
 void Explorer::evaluate() {
+  if (pool_ == nullptr) {
+    waiting_.clear();
+    twins_.clear();
+    return;
+  }
   std::vector<Variant> variants;
   for (const StoredPoint& point : waiting_) variants.push_back({point.values, 0});
-  pool_.evaluate(
+  pool_->evaluate(
       variants, interrupted_,
       [this](std::size_t number, EvaluationResult result) { take(waiting_[number], std::move(result)); },
       EvaluationPool::Order::kOfResults);

@@ -8,6 +8,7 @@
 
 #include "platform/evaluation/evaluation_pool.hpp"
 #include "platform/explore/exploration_spec.hpp"
+#include "platform/explore/point_share.hpp"
 #include "platform/explore/point_source.hpp"
 #include "platform/explore/result_store.hpp"
 
@@ -41,8 +42,10 @@ class Explorer {
   /// What has become of so many further points.
   using Advance = std::function<void(std::size_t)>;
 
-  /// All must outlive this object. The pool's preparation is given a point's values as assignments.
-  Explorer(const ExplorationSpec& spec, ResultStore& store, EvaluationPool& pool, Identify identify);
+  /// All must outlive this object. The pool's preparation is given a point's values as assignments; without a
+  /// pool, what is not known is left out.
+  Explorer(const ExplorationSpec& spec, ResultStore& store, EvaluationPool* pool, Identify identify,
+           PointShare share);
 
   /// Until all points are there, or interrupted (asked some ten times a second).
   ExplorationCounts run(const std::function<bool()>& interrupted, const Advance& advance);
@@ -57,8 +60,9 @@ class Explorer {
 
   const ExplorationSpec& spec_;
   ResultStore& store_;
-  EvaluationPool& pool_;
+  EvaluationPool* pool_;
   Identify identify_;
+  const PointShare share_;
   std::function<bool()> interrupted_;
   Advance advance_;
   std::vector<std::string> metrics_;

@@ -38,6 +38,42 @@ CREATE TABLE metric(
 CREATE TABLE metric_name(name TEXT PRIMARY KEY, unit TEXT NOT NULL, meaning TEXT NOT NULL) WITHOUT ROWID;
 )";
 
+// From a database that is attached as other. Numbers of rows differ between the two, identities and
+// specifications do not.
+constexpr const char* kTakeAll = R"(
+INSERT OR IGNORE INTO exploration(spec, started) SELECT spec, started FROM other.exploration;
+CREATE TEMP VIEW same_exploration AS
+  SELECT theirs.id AS theirs, ours.id AS ours
+  FROM other.exploration AS theirs JOIN main.exploration AS ours ON ours.spec = theirs.spec;
+INSERT OR IGNORE INTO axis
+  SELECT ours, place, name FROM other.axis JOIN same_exploration ON theirs = exploration;
+INSERT INTO result(identity, configuration, input, status, message, limit_part, command, schema, revision, seed,
+                   host, evaluated, wall_seconds, processor_seconds)
+  SELECT identity, configuration, input, status, message, limit_part, command, schema, revision, seed, host,
+         evaluated, wall_seconds, processor_seconds
+  FROM other.result WHERE true ORDER BY id
+  ON CONFLICT(identity) DO UPDATE SET
+    status = excluded.status, message = excluded.message, limit_part = excluded.limit_part,
+    command = excluded.command, schema = excluded.schema, revision = excluded.revision, host = excluded.host,
+    evaluated = excluded.evaluated, wall_seconds = excluded.wall_seconds,
+    processor_seconds = excluded.processor_seconds
+  WHERE result.status = 'failed';
+CREATE TEMP VIEW same_result AS
+  SELECT theirs.id AS theirs, ours.id AS ours
+  FROM other.result AS theirs JOIN main.result AS ours ON ours.identity = theirs.identity;
+INSERT OR IGNORE INTO metric
+  SELECT ours, name, value FROM other.metric JOIN same_result ON theirs = result;
+INSERT OR REPLACE INTO point
+  SELECT same_exploration.ours, number, same_result.ours
+  FROM other.point JOIN same_exploration ON same_exploration.theirs = exploration
+                   JOIN same_result ON same_result.theirs = result;
+INSERT OR REPLACE INTO setting
+  SELECT ours, number, place, value FROM other.setting JOIN same_exploration ON theirs = exploration;
+INSERT OR IGNORE INTO metric_name SELECT name, unit, meaning FROM other.metric_name;
+DROP VIEW same_exploration;
+DROP VIEW same_result;
+)";
+
 constexpr const char* kNow = "strftime('%Y-%m-%dT%H:%M:%SZ', 'now')";
 
 void bind(SQLite::Statement& statement, int place, const StoredValue& value) {
@@ -89,19 +125,26 @@ struct ResultStore::Database {
   void open() {
     const auto pragma = [this](const char* text) { return sqlite.execAndGet(text).getInt(); };
     const bool empty = pragma("SELECT count(*) FROM sqlite_master") == 0;
-    if (!empty && pragma("PRAGMA application_id") != kApplication)
-      throw UserError(fmt::format("{}: is a database of another program", file));
-    const int version = empty ? kVersion : pragma("PRAGMA user_version");
-    if (version != kVersion) {
-      throw UserError(fmt::format("{}: has tables of version {}, and this program those of version {}", file,
-                                  version, kVersion));
-    }
-    if (const std::string state = sqlite.execAndGet("PRAGMA quick_check(1)").getString(); state != "ok")
-      throw UserError(fmt::format("{}: the database is damaged: {}", file, state));
+    if (!empty) check("main");
     // What is committed survives the program's end, and readers are not kept out.
     sqlite.execAndGet("PRAGMA journal_mode = WAL");
     sqlite.exec("PRAGMA synchronous = NORMAL");
     if (empty) create();
+  }
+
+  // That a database, by its name here, is one of ours, and whole.
+  void check(const std::string& schema) {
+    const auto pragma = [&](const char* name) {
+      return sqlite.execAndGet(fmt::format("PRAGMA {}.{}", schema, name)).getInt();
+    };
+    if (pragma("application_id") != kApplication)
+      throw UserError(fmt::format("{}: is a database of another program", file));
+    if (const int version = pragma("user_version"); version != kVersion) {
+      throw UserError(fmt::format("{}: has tables of version {}, and this program those of version {}", file,
+                                  version, kVersion));
+    }
+    const std::string state = sqlite.execAndGet(fmt::format("PRAGMA {}.quick_check(1)", schema)).getString();
+    if (state != "ok") throw UserError(fmt::format("{}: the database is damaged: {}", file, state));
   }
 
   void create() {
@@ -305,6 +348,36 @@ bool ResultStore::has(std::size_t number, std::int64_t result) {
     query.bind(2, static_cast<std::int64_t>(number));
     query.bind(3, result);
     return query.executeStep();
+  });
+}
+
+void ResultStore::take_from(const std::filesystem::path& other) {
+  // Opened by itself first, as one that is to be written: what a writer left behind when it was killed is
+  // then in it.
+  Database source(other);
+  source.guarded([&] {
+    if (source.sqlite.execAndGet("SELECT count(*) FROM sqlite_master").getInt() == 0)
+      throw UserError(fmt::format("{}: has nothing of this exploration", source.file));
+    source.check("main");
+    SQLite::Statement spec(database_->sqlite, "SELECT spec FROM exploration WHERE id = ?");
+    spec.bind(1, database_->exploration);
+    spec.executeStep();
+    SQLite::Statement same(source.sqlite, "SELECT count(*) FROM exploration WHERE spec = ?");
+    same.bind(1, spec.getColumn(0).getString());
+    same.executeStep();
+    if (same.getColumn(0).getInt() == 0)
+      throw UserError(fmt::format("{}: has nothing of this exploration", source.file));
+  });
+  source.guarded([&] {
+    SQLite::Statement attach(database_->sqlite, "ATTACH ? AS other");
+    attach.bind(1, source.file);
+    attach.exec();
+    {
+      SQLite::Transaction all(database_->sqlite);
+      database_->sqlite.exec(kTakeAll);
+      all.commit();
+    }
+    database_->sqlite.exec("DETACH other");
   });
 }
 

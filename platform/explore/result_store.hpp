@@ -74,6 +74,10 @@ class ResultStore {
   bool has(std::size_t number, std::int64_t result);
   /// A point of the exploration, if it is there, with these metrics.
   std::optional<StoredPoint> point(std::size_t number, const std::vector<std::string>& metrics);
+  /// Adds all that another such database has, of this exploration and of others; what is there stays, but for
+  /// failures, of which the other may have results. All of it or nothing. Throws UserError: it is no such
+  /// database, or has nothing of this exploration.
+  void take_from(const std::filesystem::path& other);
   /// Says what a metric is measured in.
   void describe(const std::string& metric, const std::string& unit, const std::string& meaning);
   std::string unit(const std::string& metric);
