@@ -4,49 +4,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 
+#include "platform/commands/input_contents.hpp"
 #include "platform/commands/timed_run.hpp"
 #include "platform/config/configuration_hash.hpp"
 #include "platform/config/preset.hpp"
 #include "platform/input/quoted_text.hpp"
 #include "platform/input/run_input.hpp"
-#include "platform/results/file_content.hpp"
 
 namespace parallax {
 namespace {
 
 // Of each a map is kept, some megabytes.
 constexpr std::size_t kInputsKept = 4;
-
-// What a file holds; of a folder, what is in it and when it was written.
-std::string content_text(const std::filesystem::path& path) {
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) {
-    std::vector<std::string> entries;
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(path, ignored)) {
-      if (!entry.is_regular_file(ignored)) continue;
-      entries.push_back(fmt::format("{} {} {}", entry.path().string(), entry.file_size(ignored),
-                                    entry.last_write_time(ignored).time_since_epoch().count()));
-    }
-    std::sort(entries.begin(), entries.end());
-    FileContent names;
-    for (const std::string& entry : entries) names.add(entry.data(), entry.size());
-    return fmt::format("{:08x}", names.crc);
-  }
-  // A pipe would be read empty here.
-  return std::filesystem::is_regular_file(path, ignored) ? fmt::format("{:08x}", content_of(path).crc) : "-";
-}
-
-std::string contents(const RunOptions& options) {
-  std::vector<std::string> files{options.left, options.right, options.input, options.map};
-  files.insert(files.end(), options.calibration.begin(), options.calibration.end());
-  std::string text;
-  for (const std::string& file : files) {
-    if (!file.empty()) text += " " + content_text(file);
-  }
-  return text;
-}
 
 }  // namespace
 
@@ -71,7 +41,7 @@ ExplorationInputs::Opened& ExplorationInputs::opened(const ExplorationPoint& poi
       std::find_if(opened_.begin(), opened_.end(), [&](const auto& opened) { return opened->words == text; });
   if (found != opened_.end()) return **found;
   auto next = std::make_unique<Opened>(text, options(point));
-  next->content = contents(next->options);
+  next->content = input_contents(next->options);
   if (opened_.size() == kInputsKept) opened_.pop_front();
   opened_.push_back(std::move(next));
   return *opened_.back();

@@ -6,19 +6,22 @@
 #include <algorithm>
 #include <memory>
 #include <optional>
+#include <ostream>
 #include <utility>
 
 #include "platform/commands/command_context.hpp"
 #include "platform/commands/exit_codes.hpp"
+#include "platform/commands/input_contents.hpp"
 #include "platform/commands/interruption.hpp"
 #include "platform/commands/notes.hpp"
 #include "platform/commands/run_folder.hpp"
+#include "platform/commands/sweep_folder.hpp"
 #include "platform/commands/vary_axes.hpp"
 #include "platform/commands/vary_inputs.hpp"
 #include "platform/commands/vary_table.hpp"
+#include "platform/config/configuration_hash.hpp"
 #include "platform/config/preset_file.hpp"
 #include "platform/evaluation/verdict.hpp"
-#include "platform/results/output_folder.hpp"
 #include "platform/results/progress.hpp"
 #include "traces/json_text.hpp"
 
@@ -33,6 +36,26 @@ nlohmann::ordered_json as_json(const std::string& assignment) {
   return {{key, std::visit([](const auto& held) { return nlohmann::ordered_json(held); }, *value)}};
 }
 
+// The same text as that of a whole array, without keeping it: a sweep may have many points.
+class JsonArray {
+ public:
+  explicit JsonArray(std::ostream& out) : out_(out) {}
+
+  void add(const nlohmann::ordered_json& entry) {
+    std::string text = json_text(entry, kIndent);
+    for (std::size_t line = 0; (line = text.find('\n', line)) != std::string::npos; ++line)
+      text.insert(line + 1, kIndent, ' ');
+    out_ << (any_ ? ",\n" : "[\n") << std::string(kIndent, ' ') << text;
+    any_ = true;
+  }
+  void end() { out_ << (any_ ? "\n]\n" : "[]\n"); }
+
+ private:
+  static constexpr int kIndent = 2;
+  std::ostream& out_;
+  bool any_ = false;
+};
+
 class Sweep {
  public:
   Sweep(const RunOptions& options, CommandContext& context)
@@ -42,7 +65,7 @@ class Sweep {
 
   int run() {
     const Interruption interruption;
-    if (!options_.out.empty()) folder_ = std::make_unique<OutputFolder>(options_.out, plan());
+    if (!options_.out.empty()) folder_ = std::make_unique<SweepFolder>(options_.out, plan(), text(), names());
     // At a terminal the growing table is progress enough.
     Progress progress(context_.err, options_.json && shows_progress(context_), "points", grid_.size(),
                       notes_.sink());
@@ -52,8 +75,8 @@ class Sweep {
     const auto interrupted = [&] { return interruption.requested(); };
     const std::size_t taken =
         options_.relax ? relax_each(pool, interrupted, progress) : evaluate_all(pool, interrupted, progress);
-    if (options_.json)
-      context_.out << json_text(all_, 2) << '\n';  // of a grid that was interrupted, what there is
+    if (options_.json) all_.end();  // of a grid that was interrupted, what there is
+    if (taken == grid_.size() && folder_) folder_->end();
     if (taken < grid_.size())
       return interrupted_after(fmt::format("{} of {} points", taken, grid_.size()), context_, interruption);
     return all_done_ ? 0 : kNotAsExpected;
@@ -68,6 +91,7 @@ class Sweep {
     results.sweep = true;
     results.relaxations = options_.relax;
     FolderPlan plan = folder_plan(options_, results);
+    plan.replaces = [](const std::string&) { return false; };
     for (const std::size_t point : grid_.firsts_of_options()) {
       try {
         for (NamedInput& input : folder_plan(grid_.options(options_, point), results).inputs)
@@ -89,13 +113,71 @@ class Sweep {
     return context_.command_line.with({"--vary", "--out"}, grid_.words(point)).text();
   }
 
+  // Known ones in between, so that the table is in the order of the points.
   std::size_t evaluate_all(EvaluationPool& pool, const Question& interrupted, Progress& progress) {
-    std::vector<Variant> points;
-    for (std::size_t i = 0; i < grid_.size(); ++i) points.push_back({{}, i});
-    return pool.evaluate(points, interrupted, [&](std::size_t point, EvaluationResult result) {
-      take(point, std::move(result), std::nullopt);
-      progress.advance();
-    });
+    std::vector<Variant> unknown;
+    for (std::size_t i = 0; i < grid_.size(); ++i) {
+      if (!known(i)) unknown.push_back({{}, i});
+    }
+    std::size_t next = 0;
+    const auto take_known_before = [&](std::size_t end) {
+      for (; next < end; ++next) {
+        show(next,
+             folder_->result(next).value_or(
+                 not_measured(EvaluationResult::Status::kFailed, "its file was changed")),
+             std::nullopt);
+        progress.advance();
+      }
+    };
+    const std::size_t taken =
+        pool.evaluate(unknown, interrupted, [&](std::size_t number, EvaluationResult result) {
+          const std::size_t point = unknown[number].base;
+          take_known_before(point);
+          take(point, std::move(result), std::nullopt);
+          ++next;
+          progress.advance();
+        });
+    if (taken == unknown.size()) take_known_before(grid_.size());
+    return next;
+  }
+
+  bool known(std::size_t point) {
+    if (!folder_ || !folder_->begun()) return false;
+    const std::optional<PointIdentity> what = identity(point);
+    return what && folder_->knows(point, *what);
+  }
+
+  // None where the point is no possible machine, or has no possible options.
+  std::optional<PointIdentity> identity(std::size_t point) {
+    try {
+      const RunOptions options = grid_.options(options_, point);
+      PointIdentity what;
+      what.configuration = configuration_hash(inputs_.configuration(point, {}).machine);
+      what.input = text() + input_contents(options);
+      for (const std::string& value : grid_.option_values(point)) what.input += " " + value;
+      what.command = command(point);
+      what.seed = options.scene.seed;
+      return what;
+    } catch (const UserError&) {
+      return std::nullopt;
+    }
+  }
+
+  // What is swept: the command line without what bears on its output alone.
+  std::string text() const {
+    return context_.command_line.with({"--out"}, {}).beginning({}, {"--json", "-q", "--quiet"}).text();
+  }
+
+  std::vector<std::string> names() const {
+    std::vector<std::string> all;
+    for (const VaryAxis& axis : grid_.axes()) all.push_back(axis.name);
+    return all;
+  }
+
+  std::vector<std::string> values(std::size_t point) const {
+    std::vector<std::string> all;
+    for (std::size_t i = 0; i < grid_.axes().size(); ++i) all.push_back(grid_.value(point, i));
+    return all;
   }
 
   // One point after the other, so that those that were begun are whole when it is interrupted.
@@ -129,16 +211,19 @@ class Sweep {
 
   void take(std::size_t point, EvaluationResult result, const std::optional<Verdict>& verdict) {
     for (const std::string& note : result.notes) notes_(note);
+    if (folder_) {
+      const PointIdentity what = identity(point).value_or(PointIdentity{"", command(point), command(point), 0});
+      folder_->keep(point, values(point), what, result,
+                    verdict ? json_text(to_json(verdict->limits), 2) + "\n" : "");
+    }
+    show(point, std::move(result), verdict);
+  }
+
+  void show(std::size_t point, EvaluationResult result, const std::optional<Verdict>& verdict) {
     all_done_ = all_done_ && result.done();
     if (prints_table())
       context_.out << table_.row(point, result, verdict ? &verdict->limits : nullptr) << std::flush;
-    if (folder_ && result.done()) {
-      const std::string name = fmt::format("point_{:04}/", point);
-      folder_->write(name + "timing.json", json_text(timing_json(result), 2) + "\n");
-      if (verdict) folder_->write(name + "relaxations.json", json_text(to_json(verdict->limits), 2) + "\n");
-      folder_->publish();
-    }
-    if (options_.json) all_.push_back(entry(point, std::move(result), verdict));
+    if (options_.json) all_.add(entry(point, std::move(result), verdict));
   }
 
   bool prints_table() const { return !options_.json && context_.verbosity != Verbosity::kQuiet; }
@@ -170,8 +255,8 @@ class Sweep {
   const VaryGrid grid_;
   VaryInputs inputs_;
   const VaryTable table_{grid_, options_};
-  std::unique_ptr<OutputFolder> folder_;
-  nlohmann::ordered_json all_ = nlohmann::ordered_json::array();  // for --json
+  std::unique_ptr<SweepFolder> folder_;
+  JsonArray all_{context_.out};  // for --json
   bool all_done_ = true;
 };
 

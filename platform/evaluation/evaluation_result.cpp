@@ -93,6 +93,12 @@ const char* name(Status status) {
   return "";
 }
 
+std::optional<Status> status_named(const std::string& word) {
+  const Status* const status =
+      std::find_if(kStatuses.begin(), kStatuses.end(), [&word](Status s) { return word == name(s); });
+  return status == kStatuses.end() ? std::nullopt : std::optional(*status);
+}
+
 Json timing_json(const MetricGroup& metrics, Json configuration) {
   Json tree = to_json(metrics);
   tree["configuration"] = std::move(configuration);
@@ -118,17 +124,15 @@ std::string to_bytes(const EvaluationResult& result) {
 
 EvaluationResult evaluation_result(const std::string& bytes) try {
   EvaluationResult read;
-  const Status* status = kStatuses.end();
+  std::optional<Status> status;
   MetricGroup metrics;
   bool whole = false;
   protozero::pbf_message<ResultField> in(bytes);
   while (in.next()) {
     switch (in.tag()) {
-      case ResultField::kStatus: {
-        const std::string word = in.get_string();
-        status = std::find_if(kStatuses.begin(), kStatuses.end(), [&](Status s) { return word == name(s); });
+      case ResultField::kStatus:
+        status = status_named(in.get_string());
         break;
-      }
       case ResultField::kMessage:
         read.message = in.get_string();
         break;
@@ -154,7 +158,7 @@ EvaluationResult evaluation_result(const std::string& bytes) try {
         return without_result(0);
     }
   }
-  if (status == kStatuses.end() || !whole) return without_result(0);
+  if (!status || !whole) return without_result(0);
   EvaluationResult result = *status == Status::kDone ? measured(std::move(metrics))
                                                      : not_measured(*status, std::move(read.message));
   result.notes = std::move(read.notes);

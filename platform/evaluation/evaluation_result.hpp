@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -60,6 +61,8 @@ EvaluationResult without_result(int signal);
 
 /// "done", "invalid", "stuck", "failed", "interrupted", "too slow".
 const char* name(EvaluationResult::Status status);
+/// Nothing for any other word.
+std::optional<EvaluationResult::Status> status_named(const std::string& word);
 
 /// What timing.json holds.
 nlohmann::ordered_json timing_json(const MetricGroup& metrics, nlohmann::ordered_json configuration);

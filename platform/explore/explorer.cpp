@@ -29,9 +29,19 @@ std::string host_name() {
   return ::gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "unknown";
 }
 
-// Results of another build of the program are others.
-std::string identity_of(const PointIdentity& point) {
-  return fmt::format("{} {} {} {}", point.configuration, version(), revision(), point.input);
+// All but the result.
+StoredPoint identified(const ExplorationPoint& point, const PointIdentity& what) {
+  StoredPoint next{point.number, point.values, {}};
+  StoredResult& result = next.result;
+  result.schema = kResultSchema;
+  result.revision = revision();
+  result.host = host_name();
+  result.identity = result_identity(what);
+  result.configuration = what.configuration;
+  result.input = what.input;
+  result.command = what.command;
+  result.seed = what.seed;
+  return next;
 }
 
 StoredValue stored(const Metric* metric) {
@@ -45,7 +55,29 @@ StoredValue stored(const Metric* metric) {
   return {};
 }
 
+void set_result(StoredResult& kept, const EvaluationResult& result, const std::vector<std::string>& metrics) {
+  kept.status = name(result.status);
+  kept.message = result.message;
+  kept.limit = result.done() ? result.limit.part : "";
+  kept.wall_seconds = result.wall_seconds;
+  kept.processor_seconds = result.processor_seconds;
+  if (!result.done()) return;
+  for (const std::string& name : metrics) kept.metrics[name] = stored(result.metrics.find(name));
+}
+
 }  // namespace
+
+// Results of another build of the program are others.
+std::string result_identity(const PointIdentity& what) {
+  return fmt::format("{} {} {} {}", what.configuration, version(), revision(), what.input);
+}
+
+StoredPoint stored_point(const ExplorationPoint& point, const PointIdentity& what,
+                         const EvaluationResult& result, const std::vector<std::string>& metrics) {
+  StoredPoint stored = identified(point, what);
+  set_result(stored.result, result, metrics);
+  return stored;
+}
 
 std::vector<std::string> kept_metrics(const ExplorationSpec& spec) {
   std::vector<std::string> names = spec.named_metrics();
@@ -124,26 +156,20 @@ bool Explorer::search_for_best() {
 }
 
 void Explorer::look_at(const ExplorationPoint& point) {
-  StoredPoint next{point.number, point.values, {}};
-  StoredResult& result = next.result;
-  result.schema = kResultSchema;
-  result.revision = revision();
-  result.host = host_name();
+  StoredPoint next;
   try {
-    const PointIdentity what = identify_(point);
-    result.identity = identity_of(what);
-    result.configuration = what.configuration;
-    result.input = what.input;
-    result.command = what.command;
-    result.seed = what.seed;
+    next = identified(point, identify_(point));
   } catch (const UserError& error) {
+    next = identified(point, {});
+    StoredResult& result = next.result;
     result.status = name(EvaluationResult::Status::kInvalid);
     result.message = error.what();
+    result.identity.clear();
     for (const std::string& value : point.values) result.identity += value + " ";
     result.identity += fmt::format("{} {}: {}", version(), revision(), result.message);
   }
   if (stands(next)) return;
-  if (!result.status.empty()) {
+  if (!next.result.status.empty()) {
     store_.add(next);
     ++counts_.points;
     ++counts_.not_done;
@@ -151,7 +177,7 @@ void Explorer::look_at(const ExplorationPoint& point) {
     return;
   }
   const bool twin = std::any_of(waiting_.begin(), waiting_.end(), [&](const StoredPoint& other) {
-    return other.result.identity == result.identity;
+    return other.result.identity == next.result.identity;
   });
   (twin ? twins_ : waiting_).push_back(std::move(next));
 }
@@ -177,22 +203,14 @@ void Explorer::evaluate() {
   for (const StoredPoint& point : waiting_) variants.push_back({point.values, 0});
   pool_->evaluate(
       variants, interrupted_,
-      [this](std::size_t number, EvaluationResult result) { take(waiting_[number], std::move(result)); },
+      [this](std::size_t number, const EvaluationResult& result) { take(waiting_[number], result); },
       EvaluationPool::Order::kOfResults);
   waiting_.clear();
   for (const StoredPoint& twin : std::exchange(twins_, {})) stands(twin);
 }
 
-void Explorer::take(StoredPoint& point, EvaluationResult result) {
-  StoredResult& kept = point.result;
-  kept.status = name(result.status);
-  kept.message = std::move(result.message);
-  kept.limit = result.done() ? result.limit.part : "";
-  kept.wall_seconds = result.wall_seconds;
-  kept.processor_seconds = result.processor_seconds;
-  if (result.done()) {
-    for (const std::string& name : metrics_) kept.metrics[name] = stored(result.metrics.find(name));
-  }
+void Explorer::take(StoredPoint& point, const EvaluationResult& result) {
+  set_result(point.result, result, metrics_);
   store_.add(point);
   ++counts_.points;
   ++counts_.evaluated;

@@ -22,6 +22,13 @@ struct PointIdentity {
   std::uint64_t seed = 0;     ///< of the built-in scene
 };
 
+/// The same for the same machine on the same input, of the same build of the program.
+std::string result_identity(const PointIdentity& what);
+
+/// A point with its result, of which these metrics are kept.
+StoredPoint stored_point(const ExplorationPoint& point, const PointIdentity& what,
+                         const EvaluationResult& result, const std::vector<std::string>& metrics);
+
 /// Points and what became of them.
 struct ExplorationCounts {
   std::size_t points = 0;     ///< those that are there
@@ -55,7 +62,7 @@ class Explorer {
   bool search_for_best();
   void look_at(const ExplorationPoint& point);
   void evaluate();
-  void take(StoredPoint& point, EvaluationResult result);
+  void take(StoredPoint& point, const EvaluationResult& result);
   bool stands(const StoredPoint& point);
 
   const ExplorationSpec& spec_;

@@ -296,6 +296,15 @@ void ResultStore::begin(const std::string& spec, const std::vector<std::string>&
   });
 }
 
+std::vector<std::string> ResultStore::specifications() {
+  return database_->guarded([this] {
+    std::vector<std::string> texts;
+    SQLite::Statement query(database_->sqlite, "SELECT spec FROM exploration ORDER BY id");
+    while (query.executeStep()) texts.push_back(query.getColumn(0).getString());
+    return texts;
+  });
+}
+
 void ResultStore::end() {
   database_->guarded([this] {
     SQLite::Statement update(database_->sqlite,

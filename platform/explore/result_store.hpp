@@ -60,6 +60,8 @@ class ResultStore {
 
   /// What follows belongs to the exploration of this text: begun before, or begun now. `names`: what varies.
   void begin(const std::string& spec, const std::vector<std::string>& names);
+  /// The texts of all explorations that are there.
+  std::vector<std::string> specifications();
   /// The exploration has all its points.
   void end();
 

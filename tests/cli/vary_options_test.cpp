@@ -201,10 +201,17 @@ TEST_F(VaryOptions, WithRelaxEachPointHasItsLimits) {
       "and what taking it away gains");
   EXPECT_NE(rows[3].find(" ms  host +"), std::string::npos) << rows[3];
   for (const std::string& row : rows) EXPECT_LE(row.size(), 160U) << row;
-  // Another sweep there removes what this one wrote.
-  EXPECT_EQ(program_("run -q --timing-only -d 32 --size 64x48 --vary matching.latency=1 --out sweep").code,
-            0);
-  EXPECT_EQ(program_.files("sweep"), (std::vector<std::string>{"point_0000/", "point_0000/timing.json"}));
+  // Another sweep there would not know which points are whose.
+  const std::vector<std::string> before = program_.files("sweep");
+  const test::Outcome other =
+      program_("run -q --timing-only -d 32 --size 64x48 --vary matching.latency=1 --out sweep");
+  EXPECT_EQ(other.code, 2);
+  EXPECT_EQ(other.err.rfind(
+                "parallax: error: sweep: has the results of another sweep or exploration: parallax run ", 0),
+            0U)
+      << other.err;
+  EXPECT_NE(other.err.find("; each has a folder of its own\n"), std::string::npos) << other.err;
+  EXPECT_EQ(program_.files("sweep"), before);
 }
 
 }  // namespace vary_options_test

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // `parallax run --timing-only --vary`: a grid of configurations over one input.
+#include <SQLiteCpp/SQLiteCpp.h>
 #include <gtest/gtest.h>
 
 #include <chrono>
 #include <csignal>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <random>
 #include <thread>
 
 #include "tests/cli/program.hpp"
@@ -117,7 +120,8 @@ TEST_F(Vary, APointThatIsStuckOrInvalidIsARowAndTheOthersAreMeasured) {
   EXPECT_NE(rows[1].find(" ms  "), std::string::npos) << rows[1];
   EXPECT_NE(rows[2].find("  invalid: --set clocks.core_hz=-3: "), std::string::npos) << rows[2];
   EXPECT_NE(rows[3].find("  stuck: "), std::string::npos) << rows[3];
-  EXPECT_EQ(program_.files("out"), (std::vector<std::string>{"point_0000/", "point_0000/timing.json"}));
+  EXPECT_EQ(program_.files("out"),
+            (std::vector<std::string>{"point_0000/", "point_0000/timing.json", "results.db"}));
   const json file = json::parse(program_.read("out/point_0000/timing.json"));
   EXPECT_EQ(timing(file), timing(all[0]["timing"]));
 }
@@ -162,6 +166,51 @@ TEST_F(Vary, WhatIsWrongWithTheGridIsOneError) {
   EXPECT_EQ(program_.files(), std::vector<std::string>{});
 }
 
+// Ended at any moment, a sweep goes on with the rest, and shows all of it; what is there stays.
+TEST_F(Vary, GoesOnWhereItWasEnded) {
+  const std::string sweep =
+      "run --timing-only --size 64x48 -d 32 --timing-frames 6 --vary clocks.core_hz=1e8:2e8:1e7,-1 "
+      "--vary streams.left_texture.depth=0,1 --out ";
+  const test::Outcome whole = program_(sweep + "one");
+  ASSERT_EQ(whole.code, 1) << whole.err;
+  std::mt19937 random(3);
+  std::map<std::string, std::filesystem::file_time_type> written;
+  for (int round = 0; round < 5; ++round) {
+    const pid_t child = program_.start(sweep + "out");
+    std::this_thread::sleep_for(std::chrono::milliseconds(random() % 200));
+    ::kill(child, SIGKILL);
+    program_.wait(child);
+    for (const auto& [name, when] : written)
+      EXPECT_EQ(std::filesystem::last_write_time(program_ / name), when) << "made again: " << name;
+    for (const std::string& name : program_.files("out")) {
+      const std::string path = "out/" + name;
+      // What was being written when it was killed is made again.
+      if (name.size() > 11 && name.substr(11) == "timing.json" && round < 4) {
+        SQLite::Database database((program_ / "out/results.db").string());
+        const int point = std::stoi(name.substr(6, 4));
+        if (database.execAndGet("SELECT count(*) FROM point WHERE number = " + std::to_string(point))
+                .getInt() == 1)
+          written.emplace(path, std::filesystem::last_write_time(program_ / path));
+      }
+    }
+  }
+  EXPECT_FALSE(written.empty());
+  const test::Outcome last = program_(sweep + "out");
+  EXPECT_EQ(last.code, 1);
+  EXPECT_EQ(last.out, whole.out);
+  EXPECT_EQ(program_.files("out"), program_.files("one"));
+  for (const auto& [name, when] : written)
+    EXPECT_EQ(std::filesystem::last_write_time(program_ / name), when) << "made again: " << name;
+  // As JSON, too; and a file that somebody took away is made again.
+  std::filesystem::remove(program_ / "out/point_0000/timing.json");
+  const json all = json::parse(program_(sweep + "out --json").out);
+  ASSERT_EQ(all.size(), 24U);
+  EXPECT_EQ(all[0]["status"], "done");
+  EXPECT_EQ(all[1]["status"], "stuck");
+  EXPECT_EQ(all[23]["status"], "invalid");
+  EXPECT_TRUE(std::filesystem::exists(program_ / "out/point_0000/timing.json"));
+}
+
 class VaryInterrupted : public Vary, public ::testing::WithParamInterface<int> {};
 
 TEST_P(VaryInterrupted, LeavesTheFinishedPointsWhole) {
@@ -179,7 +228,7 @@ TEST_P(VaryInterrupted, LeavesTheFinishedPointsWhole) {
   const std::size_t points = test::lines(outcome.out).size() - 1;
   EXPECT_GE(points, 2U);
   EXPECT_EQ(outcome.err, "parallax: interrupted after " + std::to_string(points) + " of 90000 points\n");
-  EXPECT_EQ(program_.files("out").size(), 2 * points);
+  EXPECT_EQ(program_.files("out").size(), 2 * points + 1);
   EXPECT_FALSE(json::parse(program_.read("out/point_0001/timing.json")).empty());
 }
 

@@ -28,8 +28,9 @@ LEFT_OUT = {"run/version", "run/revision", "run/command", "run/wall_time", "run/
 # Groups of timing.json that a record keeps number by number.
 HEADLINES = {"run", "input", "camera", "software", "performance", "latency", "limit", "memory", "energy", "quality",
              "deadlock"}
-# Pictures hold legends and are packed by a library; their numbers are in the files beside them.
-SKIPPED_FILES = {".png", ".gif", ".html"}
+# Pictures hold legends and are packed by a library; their numbers are in the files beside them. Databases say when, and on
+# which computer, a point was evaluated.
+SKIPPED_FILES = {".png", ".gif", ".html", ".db"}
 
 TIMING = ["run", "--timing-only", "--no-verdict"]
 EIGHT = "matching.paths=w, nw, n, ne, e, sw, s, se"
