@@ -212,7 +212,8 @@ class Sweep {
   void take(std::size_t point, EvaluationResult result, const std::optional<Verdict>& verdict) {
     for (const std::string& note : result.notes) notes_(note);
     if (folder_) {
-      const PointIdentity what = identity(point).value_or(PointIdentity{"", command(point), command(point), 0});
+      const PointIdentity what =
+          identity(point).value_or(PointIdentity{"", command(point), command(point), 0});
       folder_->keep(point, values(point), what, result,
                     verdict ? json_text(to_json(verdict->limits), 2) + "\n" : "");
     }

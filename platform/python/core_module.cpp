@@ -18,6 +18,7 @@
 #include "platform/config/nearest_key.hpp"
 #include "platform/config/preset.hpp"
 #include "platform/python/evaluated_points.hpp"
+#include "platform/python/program_process.hpp"
 #include "platform/python/run_process.hpp"
 #include "platform/registers/run_time_parameters.hpp"
 #include "platform/results/ground_truth.hpp"
@@ -121,6 +122,20 @@ py::tuple run_words(const std::vector<std::string>& words,
                         std::move(outcome.pages));
 }
 
+// (exit code, standard output, standard error) of a command of the program.
+py::tuple command(const std::vector<std::string>& words) {
+  ProgramProcess process(words);
+  for (bool over = false; !over;) {
+    {
+      const py::gil_scoped_release others;
+      over = process.wait();
+    }
+    if (signal_arrived()) throw py::error_already_set();
+  }
+  const ProgramOutcome outcome = process.outcome();
+  return py::make_tuple(outcome.code, py::bytes(outcome.out), py::bytes(outcome.err));
+}
+
 // (status, message, notes, timing.json) of each.
 py::list evaluate_words(
     const std::vector<std::pair<std::vector<std::string>, std::vector<std::string>>>& words,
@@ -138,8 +153,7 @@ py::list evaluate_words(
   if (!whole) throw py::error_already_set();
   py::list list;
   for (EvaluationResult& result : results) {
-    const std::string timing =
-        result.done() ? json_text(timing_json(result)) : "";
+    const std::string timing = result.done() ? json_text(timing_json(result)) : "";
     py::list notes;
     for (const std::string& note : result.notes) notes.append(py::bytes(note));
     list.append(py::make_tuple(name(result.status), py::bytes(result.message), notes, py::bytes(timing)));
@@ -202,6 +216,7 @@ PYBIND11_MODULE(_core, module) {
   module.def("presets", &presets);
   module.def("run", &run_words);
   module.def("evaluate", &evaluate_words);
+  module.def("command", &command);
   module.def("score", &score_arrays);
   module.def("nearest_key", &nearest_key);
   module.attr("causes") = cause_names();

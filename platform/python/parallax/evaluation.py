@@ -29,6 +29,8 @@ def evaluate(points: Iterable[Union[Mapping, Machine]], *, machine: Optional[Mac
         if is_array(options.get(side)):
             raise UserError(f"{side} is an array: evaluate() takes files; or their size, as images are not looked at")
     given = encoded(input_words({**options, "timing_only": True}, size=size, seed=seed, frames=frames, verdict=False))
+    if isinstance(points, Mapping):
+        raise UserError("evaluate() takes a list of points; this is one, a dictionary: [{...}]")
     words = [(given, encoded(_words(base, point))) for point in points]
     return [point_of(*result) for result in _core.evaluate(words, workers or 0)] if words else []
 
@@ -36,5 +38,7 @@ def evaluate(points: Iterable[Union[Mapping, Machine]], *, machine: Optional[Mac
 def _words(base, point):
     if isinstance(point, Machine):
         return point.words()
+    if not isinstance(point, Mapping):
+        raise UserError(f"evaluate() takes a list of points, each a dictionary of keys or a Machine; a point is {point!r}")
     settings = {key: value for key, value in base.settings.items() if key not in point}
     return machine_words(base.preset, {**settings, **point}, base.disparities)
