@@ -9,6 +9,7 @@
 #include <cstring>
 #include <fstream>
 
+#include "platform/files/article.hpp"
 #include "platform/files/plain_file.hpp"
 #include "tlm/error.hpp"
 
@@ -18,7 +19,7 @@ namespace {
 constexpr std::size_t kMostBytes = 16 << 20;
 
 std::string content_of(const std::filesystem::path& file, const std::string& what) {
-  require_plain_file(file.string(), fmt::format("a {} file", what));
+  require_plain_file(file.string(), with_article(what) + " file");
   std::ifstream stream(file, std::ios::binary);
   if (!stream)
     throw UserError(fmt::format("{}: cannot read the {}: {}", file.string(), what, std::strerror(errno)));
@@ -29,8 +30,8 @@ std::string content_of(const std::filesystem::path& file, const std::string& wha
     content.append(piece.data(), static_cast<std::size_t>(stream.gcount()));
   }
   if (content.size() > kMostBytes) {
-    throw UserError(fmt::format("{}: has more than {} MiB, too much for a {} file", file.string(),
-                                kMostBytes >> 20, what));
+    throw UserError(fmt::format("{}: has more than {} MiB, too much for {} file", file.string(),
+                                kMostBytes >> 20, with_article(what)));
   }
   return content;
 }

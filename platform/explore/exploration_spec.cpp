@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
-#include <set>
+#include <map>
 #include <sstream>
 #include <utility>
 
@@ -71,9 +71,11 @@ class Reader {
 
   void read_run(const TomlPart& part) {
     for (const TomlPart& entry : part.entries()) {
-      if (std::find(run_options_.begin(), run_options_.end(), entry.name) == run_options_.end()) {
-        entry.fail(fmt::format("unknown option; the nearest is {}", nearest_name(entry.name, run_options_)));
+      if (!is_option(entry.name)) {
+        entry.fail(fmt::format("no option of parallax run that bears on the time; the nearest is {}",
+                               nearest_name(entry.name, run_options_)));
       }
+      say(entry);
       RunWord word{entry.name, {}};
       if (const toml::value<bool>* const flag = entry.node->as_boolean()) {
         if (flag->get()) spec_.run.push_back(word);
@@ -87,22 +89,25 @@ class Reader {
   void read_set(const TomlPart& part) {
     for (const TomlPart& entry : part.leaves()) {
       require_key(entry);
+      say(entry);
       spec_.assignments.push_back(entry.name + "=" + entry.value());
     }
   }
 
   void read_vary(const TomlPart& part) {
     for (const TomlPart& entry : part.leaves()) {
-      const bool option =
-          std::find(run_options_.begin(), run_options_.end(), entry.name) != run_options_.end();
+      const bool option = is_option(entry.name);
+      say(entry);
       spec_.axes.push_back(read_axis(entry, option ? nullptr : &require_key(entry)));
     }
   }
 
   void read_link(const TomlPart& part) {
     for (const TomlPart& entry : part.leaves()) {
-      require_key(entry);
-      spec_.links.push_back({entry.name, entry.text(), entry.origin()});
+      if (is_option(entry.name)) entry.fail("is an option of parallax run, and only keys can be linked");
+      const bool truth = require_key(entry).type == KeyType::kBoolean;
+      say(entry);
+      spec_.links.push_back({entry.name, entry.text(), entry.origin(), truth});
     }
   }
 
@@ -173,37 +178,42 @@ class Reader {
     entry.fail(fmt::format("unknown key; the nearest is {}", nearest_key(entry.name, names)));
   }
 
+  bool is_option(const std::string& name) const {
+    return std::find(run_options_.begin(), run_options_.end(), name) != run_options_.end();
+  }
+
   // What is said of a name in two places contradicts itself.
+  void say(const TomlPart& entry) {
+    const auto [other, first] = said_.emplace(entry.name, entry.origin());
+    const std::string& where = other->second;
+    if (!first)
+      entry.fail(fmt::format("is given in line {} too: a point's value of it has one source",
+                             where.substr(where.rfind(':') + 1)));
+  }
+
   void check_names() const {
-    std::set<std::string> said;
-    const auto say = [&](const std::string& name) {
-      if (!said.insert(name).second)
-        throw UserError(
-            fmt::format("{}: {} is given twice: a point's value of it has one source", file_, name));
-    };
-    for (const RunWord& word : spec_.run) say(word.option);
-    for (const std::string& assignment : spec_.assignments) say(assignment.substr(0, assignment.find('=')));
-    for (const Axis& axis : spec_.axes) say(axis.name);
-    for (const LinkedKey& link : spec_.links) say(link.key);
-    if (said.count("disparities") != 0 && said.count("matching.iterations") != 0)
+    if (const auto range = said_.find("disparities");
+        range != said_.end() && said_.count("matching.iterations") != 0)
       throw UserError(fmt::format(
-          "{}: disparities and matching.iterations exclude each other: both set the range", file_));
+          "{}: disparities and matching.iterations exclude each other: both set the range", range->second));
     if (spec_.axes.empty()) throw UserError(fmt::format("{}: nothing varies; [vary] says what does", file_));
     if (spec_.sampling.method == SamplingMethod::kSearch && spec_.objectives.empty() &&
         spec_.constraints.empty())
       throw UserError(
           fmt::format("{}: a search needs [objectives], [constraints] or both: what it searches for", file_));
-    const bool spans = std::any_of(spec_.axes.begin(), spec_.axes.end(),
+    const auto span = std::find_if(spec_.axes.begin(), spec_.axes.end(),
                                    [](const Axis& axis) { return axis.span.has_value(); });
-    if (spans && spec_.sampling.method == SamplingMethod::kGrid)
+    if (span != spec_.axes.end() && spec_.sampling.method == SamplingMethod::kGrid)
       throw UserError(fmt::format(
-          "{}: a grid needs a step or a factor between from and to; or [sampling] another method", file_));
+          "{}: {}: a grid needs a step or a factor between from and to; or [sampling] another method",
+          said_.at(span->name), span->name));
   }
 
   const std::string file_;
   const std::vector<std::string>& run_options_;
   MachineConfig machine_;
   Schema schema_;
+  std::map<std::string, std::string> said_;  // where each name has its value
   ExplorationSpec spec_;
 };
 

@@ -22,6 +22,7 @@ struct LinkedKey {
   std::string key;
   std::string expression;
   std::string origin;  ///< "spec.toml:12", for messages
+  bool truth = false;  ///< the key is true or false, which 1 and 0 of a comparison become
 };
 
 /// What a point must fulfil to be evaluated.

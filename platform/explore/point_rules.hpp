@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
+#include "platform/config/config_value.hpp"
 #include "platform/explore/exploration_spec.hpp"
 #include "platform/explore/expression.hpp"
 
 namespace parallax {
 
-/// What follows from the values of an exploration's axes: linked keys, and whether the conditions hold.
+/// What follows from the values of an exploration's axes: linked keys, and whether the conditions hold. Both
+/// may use the keys that are the same at every point.
 class PointRules {
  public:
   /// `spec` must outlive this object. Throws UserError: an expression is malformed.
@@ -20,7 +23,11 @@ class PointRules {
   bool complete(std::vector<std::string>& values);
 
  private:
-  std::vector<std::string> names_;
+  ConfigValue linked_value(std::size_t link, const std::vector<ConfigValue>& known,
+                           const std::vector<std::string>& values);
+
+  const ExplorationSpec& spec_;
+  std::vector<ConfigValue> constants_;
   std::vector<Expression> links_;
   std::vector<Expression> conditions_;
 };

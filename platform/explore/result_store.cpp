@@ -3,6 +3,7 @@
 
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <fmt/format.h>
+#include <sqlite3.h>
 
 #include <algorithm>
 #include <utility>
@@ -145,6 +146,14 @@ struct ResultStore::Database {
     }
     const std::string state = sqlite.execAndGet(fmt::format("PRAGMA {}.quick_check(1)", schema)).getString();
     if (state != "ok") throw UserError(fmt::format("{}: the database is damaged: {}", file, state));
+  }
+
+  // What is written to a file that has lost its name is lost with it.
+  void check_in_place() {
+    int moved = 0;
+    if (::sqlite3_file_control(sqlite.getHandle(), "main", SQLITE_FCNTL_HAS_MOVED, &moved) == SQLITE_OK &&
+        moved != 0)
+      throw UserError(fmt::format("{}: was removed or replaced while results were written to it", file));
   }
 
   void create() {
@@ -338,6 +347,7 @@ void ResultStore::add(const StoredPoint& point) {
     database_->put(id, point.result.metrics);
     database_->put(point.number, point.values, id);
     all.commit();
+    database_->check_in_place();
   });
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "platform/images/image_file.hpp"
+#include "platform/files/article.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -10,6 +11,7 @@
 #include <filesystem>
 #include <opencv2/core.hpp>
 
+#include "platform/files/article.hpp"
 #include "platform/images/image_codecs.hpp"
 #include "platform/images/image_header.hpp"
 #include "platform/images/stderr_capture.hpp"
@@ -19,10 +21,6 @@ namespace parallax {
 namespace {
 
 namespace fs = std::filesystem;
-
-const char* article(const std::string& what) {
-  return std::string("aeiou").find(what.front()) == std::string::npos ? "a" : "an";
-}
 
 // The image, or an empty one when it is damaged.
 cv::Mat decode(const std::string& path) {
@@ -49,9 +47,9 @@ void require_image_file(const std::string& path, const std::string& what) {
     throw UserError(fmt::format("{} {} does not exist", what, path));
   if (failed) throw UserError(fmt::format("cannot read {} {}: {}", what, path, failed.message()));
   if (fs::is_directory(status))
-    throw UserError(fmt::format("{} is a folder, expected {} {}", path, article(what), what));
+    throw UserError(fmt::format("{} is a folder, expected {}", path, with_article(what)));
   if (!fs::is_regular_file(status))
-    throw UserError(fmt::format("{} is no file, expected {} {}", path, article(what), what));
+    throw UserError(fmt::format("{} is no file, expected {}", path, with_article(what)));
   if (::faccessat(AT_FDCWD, path.c_str(), R_OK, AT_EACCESS) != 0)
     throw UserError(fmt::format("cannot read {} {}: {}", what, path, std::strerror(errno)));
 }

@@ -80,6 +80,23 @@ matching.iterations = "128 / matching.parallelism"
   EXPECT_FALSE(source.next());
 }
 
+TEST(PointSource, KnowsWhatIsTheSameAtEveryPointAndComparisonsAreTruths) {
+  const ExplorationSpec spec = read(R"(
+conditions = ["clocks.core_hz >= software.response_ns"]
+[set]
+software.response_ns = 150
+[vary]
+clocks.core_hz = [100, 200]
+[link]
+census.enabled = "clocks.core_hz > 2 * software.response_ns"
+)");
+  PointSource source(spec);
+  const auto point = source.next();
+  ASSERT_TRUE(point);
+  EXPECT_EQ(point->values, (std::vector<std::string>{"200", "false"}));
+  EXPECT_FALSE(source.next());
+}
+
 TEST(PointSource, DrawsAsManyAsAskedForWhateverTheConditions) {
   const ExplorationSpec spec = read(R"(
 conditions = ["streams.default_depth % 2 = 0"]
@@ -144,12 +161,20 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"[vary]\nmatching.paths = { from = 1, to = 2 }",
               "s.toml:2: matching.paths: from and to are for keys that are numbers; list the values"},
         Wrong{"[vary]\nclocks.core_hz = { from = 1e6, to = 2e6 }",
-              "s.toml: a grid needs a step or a factor between from and to; or [sampling] another method"},
+              "s.toml:2: clocks.core_hz: a grid needs a step or a factor between from and to; or [sampling] "
+              "another "
+              "method"},
         Wrong{"[vary]\nsize = ['1x1']\n[run]\nsize = '2x2'",
-              "s.toml: size is given twice: a point's value of it has one source"},
+              "s.toml:2: size: is given in line 4 too: a point's value of it has one source"},
         Wrong{"[vary]\nmatching.iterations = [1]\n[run]\ndisparities = 64",
-              "s.toml: disparities and matching.iterations exclude each other: both set the range"},
-        Wrong{"[run]\nsised = '1x1'", "s.toml:2: sised: unknown option; the nearest is size"},
+              "s.toml:4: disparities and matching.iterations exclude each other: both set the range"},
+        Wrong{"[run]\nsised = '1x1'",
+              "s.toml:2: sised: no option of parallax run that bears on the time; the nearest is size"},
+        Wrong{"[set]\nclocks.core_hz = 1\n[vary]\nclocks.core_hz = [1e6]",
+              "s.toml:4: clocks.core_hz: is given in line 2 too: a point's value of it has one "
+              "source"},
+        Wrong{"[link]\nsize = '3'",
+              "s.toml:2: size: is an option of parallax run, and only keys can be linked"},
         Wrong{"[set]\nclocks.core = 1", "s.toml:2: clocks.core: unknown key; the nearest is clocks.core_hz"},
         Wrong{"[link]\nclocks.core_hz = 5", "s.toml:2: clocks.core_hz: must be text, in quotes"},
         Wrong{"conditions = 'a'", "s.toml:1: conditions: must be an array"},
@@ -172,7 +197,7 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"[constraints]\n'a/b' = { at_least = 2, at_most = 1 }",
               "s.toml:2: a/b: at_least is above at_most: nothing can satisfy that"},
         Wrong{"[vary]\nmatching.p1 = [5, 6]\n[link]\nmatching.p2 = '100 / (matching.p1 - 6)'",
-              "s.toml:4: '100 / (matching.p1 - 6)' has no value where matching.p1 = 6"},
+              "s.toml:4: '100 / (matching.p1 - 6)' has no value, for matching.p2, where matching.p1 = 6"},
         Wrong{"[objectives]\n'a/b' = 'max'", "s.toml:2: a/b: must be \"most\" or \"least\""},
         Wrong{"conditions = ['clocks.core_hz > 1e9']\n[vary]\nclocks.core_hz = {from = 1e6, to = 2e6}\n"
               "[sampling]\nmethod = 'random'\npoints = 2",

@@ -4,6 +4,7 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <fstream>
 
 #include "tests/platform/error_of.hpp"
@@ -48,6 +49,19 @@ TEST(ResultStore, KeepsWhatItIsGiven) {
   EXPECT_EQ(all[1].result.metrics.at("part"), StoredValue(std::string("core")));
   EXPECT_EQ(all[1].result.metrics.at("none"), StoredValue());
   EXPECT_EQ(all[1].result.metrics.count("other"), 0U);
+}
+
+TEST(ResultStore, SaysThatItWasRemovedOrReplaced) {
+  const TemporaryFolder folder;
+  ResultStore store(folder / "r.db");
+  store.begin("spec", {"a", "b"});
+  store.add(point(0, "i0", "done"));
+  std::filesystem::rename(folder / "r.db", folder / "other.db");
+  const std::string line = std::filesystem::path(folder / "r.db").string() +
+                           ": was removed or replaced while results were written to it";
+  EXPECT_EQ(error_of([&] { store.add(point(1, "i1", "done")); }), line);
+  std::ofstream(folder / "r.db") << "another file";
+  EXPECT_EQ(error_of([&] { store.add(point(2, "i2", "done")); }), line);
 }
 
 TEST(ResultStore, FindsWhatIsKnownWithAllThatIsAsked) {
