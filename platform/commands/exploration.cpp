@@ -11,6 +11,7 @@
 #include "platform/commands/exploration_metrics.hpp"
 #include "platform/commands/run_folder.hpp"
 #include "platform/commands/timed_run.hpp"
+#include "platform/explore/axis_effect_table.hpp"
 #include "platform/explore/exploration_table.hpp"
 #include "platform/explore/search_space.hpp"
 #include "platform/results/glossary.hpp"
@@ -25,6 +26,7 @@ constexpr std::size_t kInputsTried = 100;
 constexpr const char* kDatabase = "results.db";
 constexpr const char* kPoints = "points.csv";
 constexpr const char* kFront = "front.csv";
+constexpr const char* kSensitivity = "sensitivity.csv";
 
 }  // namespace
 
@@ -93,7 +95,9 @@ ExplorationReport Exploration::look(EvaluationPool* pool, const ExplorationWatch
   if (report.counts.whole && share_.parts == 1) store_->end();
   if (report.counts.whole) size_ = report.counts.points;
   report.outcome = judge(spec_, *store_);
-  write_tables(*folder_, report.outcome);
+  if (spec_.sampling.method == SamplingMethod::kOneAtATime)
+    report.effects = axis_effects(spec_, *store_, kept_metrics(spec_));
+  write_tables(*folder_, report);
   return report;
 }
 
@@ -147,7 +151,9 @@ void Exploration::fail(const std::string& line) const {
 // None of the inputs, at whichever point, may be replaced.
 FolderPlan Exploration::plan() const {
   FolderPlan plan;
-  plan.writes = [](const std::string& name) { return name == kPoints || name == kFront; };
+  plan.writes = [](const std::string& name) {
+    return name == kPoints || name == kFront || name == kSensitivity;
+  };
   plan.inputs.push_back({file_.string(), file_});
   std::set<std::vector<std::string>> seen;
   const ExplorationSpec spec = inputs_only();
@@ -185,12 +191,16 @@ void Exploration::check_metrics() const {
   for (const std::string& name : spec_.metrics) require_metric(name, file_.string());
 }
 
-void Exploration::write_tables(OutputFolder& folder, const ExplorationOutcome& outcome) {
+void Exploration::write_tables(OutputFolder& folder, const ExplorationReport& report) {
   const std::vector<std::string> metrics = kept_metrics(spec_);
   const ExplorationTable table(names_, metrics, *store_);
   for (const char* name : {kPoints, kFront}) {
     OutputFile& file = folder.open(name);
-    table.csv(outcome, name == kFront, [&file](const std::string& line) { file.write(line); });
+    table.csv(report.outcome, name == kFront, [&file](const std::string& line) { file.write(line); });
+  }
+  if (spec_.sampling.method == SamplingMethod::kOneAtATime) {
+    OutputFile& file = folder.open(kSensitivity);
+    effects_csv(report.effects, *store_, [&file](const std::string& line) { file.write(line); });
   }
   folder.publish();
 }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "platform/commands/exploration_inputs.hpp"
+#include "platform/explore/axis_effect.hpp"
 #include "platform/explore/exploration_outcome.hpp"
 #include "platform/explore/exploration_spec.hpp"
 #include "platform/explore/explorer.hpp"
@@ -23,6 +24,7 @@ namespace parallax {
 struct ExplorationReport {
   ExplorationCounts counts;
   ExplorationOutcome outcome;
+  std::vector<AxisEffect> effects;  ///< of one that varies one at a time
 };
 
 /// What of an exploration is watched while it runs.
@@ -31,8 +33,8 @@ struct ExplorationWatch {
   Explorer::Advance advance;
 };
 
-/// An exploration with its folder: results.db, points.csv, front.csv. Who prints or plots it asks for the
-/// rest.
+/// An exploration with its folder: results.db, points.csv, front.csv, sensitivity.csv. Who prints or plots it
+/// asks for the rest.
 class Exploration {
  public:
   /// `share`: the points that are evaluated here. Throws UserError: the specification is wrong, no point
@@ -65,7 +67,7 @@ class Exploration {
   void check_inputs();
   ExplorationSpec inputs_only() const;
   FolderPlan plan() const;
-  void write_tables(OutputFolder& folder, const ExplorationOutcome& outcome);
+  void write_tables(OutputFolder& folder, const ExplorationReport& report);
 
   const std::filesystem::path file_;
   const std::filesystem::path out_;

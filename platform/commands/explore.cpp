@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <cstdio>
 
@@ -12,6 +13,7 @@
 #include "platform/commands/interruption.hpp"
 #include "platform/commands/job_script.hpp"
 #include "platform/commands/notes.hpp"
+#include "platform/explore/axis_effect_table.hpp"
 #include "platform/explore/exploration_table.hpp"
 #include "platform/input/quoted_text.hpp"
 #include "platform/results/output_folder.hpp"
@@ -52,6 +54,10 @@ class ExplorationPrinter {
     if (!exploration_.spec().constraints.empty())
       context_.out << fmt::format("satisfied           {}\n", outcome.satisfied.size());
     if (outcome.nearest) context_.out << "nearest             " << nearest_text(*outcome.nearest) << '\n';
+    if (exploration_.spec().sampling.method == SamplingMethod::kOneAtATime) {
+      context_.out << effects_text(shown(), exploration_.store(), kMostRows);
+      return;
+    }
     if (outcome.front.empty()) return;
     context_.out << (exploration_.spec().objectives.empty()
                          ? ""
@@ -60,6 +66,17 @@ class ExplorationPrinter {
   }
 
  private:
+  // Those of the numbers that the table has.
+  std::vector<AxisEffect> shown() const {
+    std::vector<AxisEffect> all = report_.effects;
+    const std::vector<std::string>& metrics = exploration_.metrics();
+    const auto left_out = [&metrics](const AxisEffect& one) {
+      return std::find(metrics.begin(), metrics.end(), one.metric) == metrics.end();
+    };
+    all.erase(std::remove_if(all.begin(), all.end(), left_out), all.end());
+    return all;
+  }
+
   static std::string statuses(const ExplorationOutcome& outcome) {
     std::string text;
     for (const auto& [status, number] : outcome.by_status)
@@ -85,6 +102,8 @@ class ExplorationPrinter {
         {"evaluated", counts.evaluated},         {"statuses", outcome.by_status},
         {"satisfied", outcome.satisfied.size()}, {"front", table.json(outcome.front)}};
     if (const std::optional<double> machines = exploration_.machines()) tree["machines"] = *machines;
+    if (exploration_.spec().sampling.method == SamplingMethod::kOneAtATime)
+      tree["sensitivities"] = effects_json(shown(), exploration_.store());
     if (outcome.fault)
       tree["first_fault"] = {{"point", outcome.fault->number}, {"message", outcome.fault->line}};
     if (outcome.nearest) tree["nearest"] = table.json({outcome.nearest->number}).front();

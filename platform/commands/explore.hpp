@@ -28,9 +28,9 @@ struct MergeOptions {
 };
 
 /// Evaluates the points of a specification that the folder does not know, and says what they come to:
-/// results.db, points.csv and front.csv. Returns 0; but for a shard 1 when no point was done, or none
-/// satisfies the constraints; 128 + the signal when SIGINT or SIGTERM stopped it, the finished points being
-/// there. Throws UserError.
+/// results.db, points.csv, front.csv, and sensitivity.csv of one that varies one at a time. Returns 0; but
+/// for a shard 1 when no point was done, or none satisfies the constraints; 128 + the signal when SIGINT or
+/// SIGTERM stopped it, the finished points being there. Throws UserError.
 int explore(const ExploreOptions& options, CommandContext& context);
 
 /// Takes what these folders of one exploration have into one, and says what it comes to, as explore() does;

@@ -23,8 +23,9 @@ namespace parallax {
 namespace {
 
 constexpr std::size_t kMostPoints = 1'000'000;
-constexpr std::array<std::pair<const char*, SamplingMethod>, 5> kMethods{
+constexpr std::array<std::pair<const char*, SamplingMethod>, 6> kMethods{
     {{"grid", SamplingMethod::kGrid},
+     {"one-at-a-time", SamplingMethod::kOneAtATime},
      {"random", SamplingMethod::kRandom},
      {"latin-hypercube", SamplingMethod::kLatinHypercube},
      {"sobol", SamplingMethod::kSobol},
@@ -127,9 +128,10 @@ class Reader {
         entry.fail("unknown; [sampling] has method, points and seed");
       }
     }
-    const bool grid = spec_.sampling.method == SamplingMethod::kGrid;
-    if (grid && spec_.sampling.points != 0) part.fail("a grid has all points; points goes with the others");
-    if (!grid && spec_.sampling.points == 0) part.fail("points = NUMBER is missing: how many to take");
+    const bool drawn = draws(spec_.sampling.method);
+    if (!drawn && spec_.sampling.points != 0)
+      part.fail("a grid has all points, and so has one-at-a-time; points goes with the others");
+    if (drawn && spec_.sampling.points == 0) part.fail("points = NUMBER is missing: how many to take");
   }
 
   SamplingMethod method_of(const TomlPart& entry) const {
@@ -203,7 +205,7 @@ class Reader {
           fmt::format("{}: a search needs [objectives], [constraints] or both: what it searches for", file_));
     const auto span = std::find_if(spec_.axes.begin(), spec_.axes.end(),
                                    [](const Axis& axis) { return axis.span.has_value(); });
-    if (span != spec_.axes.end() && spec_.sampling.method == SamplingMethod::kGrid)
+    if (span != spec_.axes.end() && !draws(spec_.sampling.method))
       throw UserError(fmt::format(
           "{}: {}: a grid needs a step or a factor between from and to; or [sampling] another method",
           said_.at(span->name), span->name));

@@ -33,15 +33,22 @@ struct Condition {
 
 enum class SamplingMethod {
   kGrid,            ///< every combination, the last axis changing fastest
+  kOneAtATime,      ///< the first value of each axis; then each other value of one axis, the others at their
+                    ///< first
   kRandom,          ///< each value by itself
   kLatinHypercube,  ///< each axis cut into as many parts as there are points, each of which occurs once
   kSobol,           ///< a sequence that fills the space evenly, whatever its length
   kSearch,          ///< where the best are (search()), each step from the results of those before
 };
 
+/// Whether a method takes as many points as it is told; of the others the axes say how many there are.
+constexpr bool draws(SamplingMethod method) {
+  return method != SamplingMethod::kGrid && method != SamplingMethod::kOneAtATime;
+}
+
 struct SamplingPlan {
   SamplingMethod method = SamplingMethod::kGrid;
-  std::size_t points = 0;  ///< of all methods but the grid; of a search, at most
+  std::size_t points = 0;  ///< of methods that draw; of a search, at most
   std::uint64_t seed = 1;
 };
 

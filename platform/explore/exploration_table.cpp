@@ -17,12 +17,6 @@ std::string quoted(const std::string& field) {
   return text + "\"";
 }
 
-std::string csv_line(const std::vector<std::string>& fields) {
-  std::string line;
-  for (std::size_t i = 0; i < fields.size(); ++i) line += (i == 0 ? "" : ",") + quoted(fields[i]);
-  return line + "\r\n";
-}
-
 // All digits; a reader's are number_text().
 std::string field_of(const StoredResult& result, const std::string& metric) {
   const auto found = result.metrics.find(metric);
@@ -33,6 +27,14 @@ std::string field_of(const StoredResult& result, const std::string& metric) {
 }
 
 using Row = std::vector<std::string>;
+
+}  // namespace
+
+std::string csv_line(const std::vector<std::string>& fields) {
+  std::string line;
+  for (std::size_t i = 0; i < fields.size(); ++i) line += (i == 0 ? "" : ",") + quoted(fields[i]);
+  return line + "\r\n";
+}
 
 std::string aligned(const std::vector<Row>& rows) {
   std::vector<std::size_t> widths(rows.front().size());
@@ -47,8 +49,6 @@ std::string aligned(const std::vector<Row>& rows) {
   }
   return text;
 }
-
-}  // namespace
 
 ExplorationTable::ExplorationTable(const std::vector<std::string>& names,
                                    const std::vector<std::string>& metrics, ResultStore& store)

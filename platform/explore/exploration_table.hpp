@@ -10,6 +10,12 @@
 
 namespace parallax {
 
+/// A line of CSV (RFC 4180).
+std::string csv_line(const std::vector<std::string>& fields);
+
+/// Rows of cells, the first of them titles, each column as wide as its widest cell.
+std::string aligned(const std::vector<std::vector<std::string>>& rows);
+
 /// Points as rows: for spreadsheets, for programs, and for a reader.
 class ExplorationTable {
  public:

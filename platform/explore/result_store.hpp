@@ -68,8 +68,8 @@ class ResultStore {
   /// A result that has these metrics: who wants others has to evaluate anew, and so has one who finds what
   /// failed on this computer.
   std::optional<KnownResult> find(const std::string& identity, const std::vector<std::string>& metrics);
-  /// Adds a result, in the place of an older one of its identity, and the point that asked for it. Throws UserError
-  /// where the file has been removed or replaced meanwhile.
+  /// Adds a result, in the place of an older one of its identity, and the point that asked for it. Throws
+  /// UserError where the file has been removed or replaced meanwhile.
   void add(const StoredPoint& point);
   /// Adds a point whose result is known.
   void add(std::size_t number, const std::vector<std::string>& values, std::int64_t result);

@@ -82,20 +82,30 @@ std::unique_ptr<PlaceSource> make_place_source(const SamplingPlan& plan, std::si
 }
 
 Sampling::Sampling(const std::vector<Axis>& axes, const SamplingPlan& plan)
-    : axes_(axes), grid_(plan.method == SamplingMethod::kGrid) {
-  if (grid_) {
-    at_.resize(axes.size());
-  } else {
+    : axes_(axes), method_(plan.method) {
+  if (method_ == SamplingMethod::kGrid) at_.resize(axes.size());
+  if (draws(method_)) {
     places_ = make_place_source(plan, axes.size());
   }
 }
 
 std::optional<std::vector<std::string>> Sampling::next() {
-  if (grid_) return next_of_grid();
+  if (method_ == SamplingMethod::kGrid) return next_of_grid();
+  if (method_ == SamplingMethod::kOneAtATime) return next_at_a_time();
   const std::optional<std::vector<double>> place = places_->next();
   if (!place) return std::nullopt;
   std::vector<std::string> values;
   for (std::size_t i = 0; i < axes_.size(); ++i) values.push_back(value_at(axes_[i], (*place)[i]));
+  return values;
+}
+
+std::optional<std::vector<std::string>> Sampling::next_at_a_time() {
+  if (axis_ == axes_.size()) return std::nullopt;
+  std::vector<std::string> values;
+  for (const Axis& axis : axes_) values.push_back(axis.values.front());
+  values[axis_] = axes_[axis_].values[value_];
+  // The first value of an axis is the base, which was there.
+  for (++value_; axis_ < axes_.size() && value_ >= axes_[axis_].values.size(); ++axis_) value_ = 1;
   return values;
 }
 

@@ -31,16 +31,20 @@ class Sampling {
   /// Both must outlive this object.
   Sampling(const std::vector<Axis>& axes, const SamplingPlan& plan);
 
-  /// The values of the next point, by axis; nothing after the last of a grid or a Latin hypercube.
+  /// The values of the next point, by axis; nothing after the last, unless they are drawn at random.
   std::optional<std::vector<std::string>> next();
 
  private:
   std::optional<std::vector<std::string>> next_of_grid();
+  std::optional<std::vector<std::string>> next_at_a_time();
 
   const std::vector<Axis>& axes_;
-  const bool grid_;
+  const SamplingMethod method_;
   std::unique_ptr<PlaceSource> places_;
   std::vector<std::size_t> at_;  // of a grid: index of each axis' next value; none after the last
+  // One at a time: which axis is next, with which value; before the first axis the base.
+  std::size_t axis_ = 0;
+  std::size_t value_ = 0;
 };
 
 }  // namespace parallax

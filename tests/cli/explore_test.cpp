@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <nlohmann/json.hpp>
@@ -169,6 +170,60 @@ TEST(Explore, SearchesALargeSpace) {
   EXPECT_NE(program("explore some.toml --out some")
                 .out.find("\nchosen from         256 machines, conditions aside\n"),
             std::string::npos);
+}
+
+// Each number beside the runs themselves.
+TEST(Explore, ShowsWhatMovesANumberMost) {
+  const test::Program program;
+  program.folder().write("s.toml", R"(
+metrics = ["performance/frame_rate"]
+[run]
+preset = "core-alone"
+rectified = true
+size = "64x48"
+timing-frames = 2
+[vary]
+clocks.core_hz = [100e6, 50e6, 200e6]
+streams.default_depth = [16, 8]
+matching.latency = [9, -1]
+[sampling]
+method = "one-at-a-time"
+)");
+  const test::Outcome outcome = program("explore s.toml --out out --json");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const nlohmann::json tree = json_of(outcome);
+  EXPECT_EQ(tree["points"], 5);
+  const auto rate = [&program](const std::string& change) {
+    return json_of(program(
+        "run --timing-only -q --json --preset core-alone --rectified --size 64x48 --timing-frames 2 "
+        "--set matching.latency=9 " +
+        change))["performance"]["frame_rate"]["value"]
+        .get<double>();
+  };
+  const double base = rate("--set clocks.core_hz=100e6 --set streams.default_depth=16");
+  ASSERT_EQ(tree["sensitivities"].size(), 3U);
+  const nlohmann::json clock = tree["sensitivities"][0];
+  EXPECT_EQ(clock["varies"], "clocks.core_hz");
+  EXPECT_EQ(clock["base"], base);
+  EXPECT_EQ(clock["least"], rate("--set clocks.core_hz=50e6 --set streams.default_depth=16"));
+  EXPECT_EQ(clock["at_least"], "50e6");
+  EXPECT_EQ(clock["most"], rate("--set clocks.core_hz=200e6 --set streams.default_depth=16"));
+  EXPECT_EQ(clock["at_most"], "200e6");
+  for (const nlohmann::json& one : tree["sensitivities"]) {
+    if (one["varies"] == "matching.latency") {
+      EXPECT_EQ(one["least"], one["most"]) << "its other value is none";
+    }
+    if (one["varies"] != "streams.default_depth") continue;
+    const double other = rate("--set clocks.core_hz=100e6 --set streams.default_depth=8");
+    EXPECT_EQ(one["least"], std::min(base, other));
+    EXPECT_EQ(one["most"], std::max(base, other));
+  }
+  EXPECT_NE(program("explore s.toml --out out").out.find("\n                number  "), std::string::npos);
+  EXPECT_EQ(program.read("out/sensitivity.csv")
+                .rfind("number,unit,varies,base,least,at_least,most,at_most\r\n"
+                       "performance/frame_rate,frames/s,clocks.core_hz,",
+                       0),
+            0U);
 }
 
 TEST(Explore, StopsInAnOrderlyWay) {

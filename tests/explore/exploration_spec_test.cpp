@@ -181,13 +181,15 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"conditions = ['a = 1']\n[vary]\nclocks.core_hz = [1e6]",
               "s.toml:1: 'a = 1': a is neither varied nor linked before; the nearest is clocks.core_hz"},
         Wrong{"[sampling]\nmethod = 'sobel'",
-              "s.toml:2: method: 'sobel' is none of grid, random, latin-hypercube, sobol, search"},
+              "s.toml:2: method: 'sobel' is none of grid, one-at-a-time, random, latin-hypercube, sobol, "
+              "search"},
         Wrong{"[vary]\nclocks.core_hz = [1e8, 2e8]\n[sampling]\nmethod = 'search'\npoints = 9",
               "s.toml: a search needs [objectives], [constraints] or both: what it searches for"},
         Wrong{"[sampling]\nmethod = 'sobol'",
               "s.toml:1: sampling: points = NUMBER is missing: how many to take"},
         Wrong{"[sampling]\npoints = 4",
-              "s.toml:1: sampling: a grid has all points; points goes with the others"},
+              "s.toml:1: sampling: a grid has all points, and so has one-at-a-time; points goes with the "
+              "others"},
         Wrong{"[sampling]\nmethod = 'sobol'\npoints = 0",
               "s.toml:3: points: must be a whole number from 1 to 1000000"},
         Wrong{"[sampling]\nsed = 4", "s.toml:2: sed: unknown; [sampling] has method, points and seed"},

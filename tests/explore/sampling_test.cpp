@@ -44,6 +44,21 @@ TEST(Sampling, GridHasEveryCombinationTheLastAxisFastest) {
   EXPECT_FALSE(sampling.next());
 }
 
+TEST(Sampling, OneAtATimeHasTheBaseAndEachOtherValueAlone) {
+  const std::vector<Axis> axes{
+      {"a", false, {"1", "2", "3"}, {}}, {"b", false, {"x"}, {}}, {"c", false, {"-", "+"}, {}}};
+  SamplingPlan plan;
+  plan.method = SamplingMethod::kOneAtATime;
+  Sampling sampling(axes, plan);
+  std::vector<std::string> seen;
+  while (const auto values = sampling.next()) seen.push_back((*values)[0] + (*values)[1] + (*values)[2]);
+  EXPECT_EQ(seen, (std::vector<std::string>{"1x-", "2x-", "3x-", "1x+"}));
+  const std::vector<Axis> none{{"b", false, {"x"}, {}}};
+  Sampling one(none, plan);
+  EXPECT_TRUE(one.next());
+  EXPECT_FALSE(one.next());
+}
+
 TEST(Sampling, LatinHypercubeHasOnePointInEachPartOfEachAxis) {
   const Places all = places(SamplingMethod::kLatinHypercube, 37, 5);
   ASSERT_EQ(all.size(), 37U);
