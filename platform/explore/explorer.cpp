@@ -170,16 +170,20 @@ void Explorer::look_at(const ExplorationPoint& point) {
   }
   if (stands(next)) return;
   if (!next.result.status.empty()) {
-    store_.add(next);
-    ++counts_.points;
-    ++counts_.not_done;
-    advance_(1);
+    keep(next);
     return;
   }
   const bool twin = std::any_of(waiting_.begin(), waiting_.end(), [&](const StoredPoint& other) {
     return other.result.identity == next.result.identity;
   });
   (twin ? twins_ : waiting_).push_back(std::move(next));
+}
+
+void Explorer::keep(const StoredPoint& point) {
+  store_.add(point);
+  ++counts_.points;
+  if (point.result.status != name(EvaluationResult::Status::kDone)) ++counts_.not_done;
+  advance_(1);
 }
 
 // Whether its result is known; then the point is there too.
@@ -205,17 +209,22 @@ void Explorer::evaluate() {
       variants, interrupted_,
       [this](std::size_t number, const EvaluationResult& result) { take(waiting_[number], result); },
       EvaluationPool::Order::kOfResults);
-  waiting_.clear();
-  for (const StoredPoint& twin : std::exchange(twins_, {})) stands(twin);
+  const std::vector<StoredPoint> evaluated = std::exchange(waiting_, {});
+  for (StoredPoint& twin : std::exchange(twins_, {})) {
+    const auto same = std::find_if(evaluated.begin(), evaluated.end(), [&twin](const StoredPoint& one) {
+      return one.result.identity == twin.result.identity;
+    });
+    // Without a status: interrupted before it was evaluated.
+    if (same->result.status.empty()) continue;
+    twin.result = same->result;
+    keep(twin);
+  }
 }
 
 void Explorer::take(StoredPoint& point, const EvaluationResult& result) {
   set_result(point.result, result, metrics_);
-  store_.add(point);
-  ++counts_.points;
   ++counts_.evaluated;
-  if (!result.done()) ++counts_.not_done;
-  advance_(1);
+  keep(point);
 }
 
 }  // namespace parallax

@@ -64,6 +64,7 @@ class Explorer {
   void evaluate();
   void take(StoredPoint& point, const EvaluationResult& result);
   bool stands(const StoredPoint& point);
+  void keep(const StoredPoint& point);
 
   const ExplorationSpec& spec_;
   ResultStore& store_;

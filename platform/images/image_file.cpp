@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "platform/images/image_file.hpp"
-#include "platform/files/article.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
