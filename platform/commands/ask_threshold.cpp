@@ -18,8 +18,9 @@
 #include "platform/config/preset.hpp"
 #include "platform/evaluation/evaluation_inputs.hpp"
 #include "platform/evaluation/evaluation_pool.hpp"
+#include "platform/explore/bounds_search.hpp"
 #include "platform/explore/candidates.hpp"
-#include "platform/explore/threshold_search.hpp"
+#include "platform/explore/judgement.hpp"
 #include "platform/input/run_input.hpp"
 #include "platform/results/progress.hpp"
 #include "tlm/error.hpp"
@@ -166,21 +167,31 @@ class ThresholdQuestion {
     Notes notes(context_);
     // So many steps at most, as each leaves a part of the gap.
     Progress progress(context_.err, shows_progress(context_), "runs", 0, notes.sink());
-    return find_threshold(values_.size(), start_, EvaluationPool::usual_processes(),
-                          [&](const std::vector<std::size_t>& indices) {
-                            std::vector<Variant> variants;
-                            for (const std::size_t index : indices) variants.push_back({{assignment(index)}});
-                            std::vector<bool> answers;
-                            pool_.evaluate(
-                                variants, [&] { return interruption.requested(); },
-                                [&](std::size_t number, EvaluationResult result) {
-                                  for (const std::string& note : result.notes) notes(note);
-                                  answers.push_back(holds(holds_, result));
-                                  runs_.insert_or_assign(indices[number], std::move(result));
-                                  progress.advance();
-                                });
-                            return answers;
-                          });
+    return find_bounds(values_.size(), start_, EvaluationPool::usual_processes(),
+                       [&](const std::vector<std::size_t>& indices) {
+                         std::vector<Variant> variants;
+                         for (const std::size_t index : indices) variants.push_back({{assignment(index)}});
+                         std::vector<FailedBounds> answers;
+                         pool_.evaluate(
+                             variants, [&] { return interruption.requested(); },
+                             [&](std::size_t number, EvaluationResult result) {
+                               for (const std::string& note : result.notes) notes(note);
+                               answers.push_back(failed(result));
+                               runs_.insert_or_assign(indices[number], std::move(result));
+                               progress.advance();
+                             });
+                         return answers;
+                       });
+  }
+
+  // What does not run fails a bound of its own: of the others nothing is known.
+  FailedBounds failed(const EvaluationResult& result) const {
+    if (!result.done()) return {holds_.size()};
+    FailedBounds bounds;
+    for (std::size_t i = 0; i < holds_.size(); ++i) {
+      if (miss(holds_[i], number_of(result, holds_[i].metric)) > 0) bounds.push_back(i);
+    }
+    return bounds;
   }
 
   std::string said(std::size_t index) const { return said_of(runs_.at(index), names_); }

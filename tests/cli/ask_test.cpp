@@ -2,7 +2,10 @@
 // One question to a machine, and the runs that answer it.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
 
 #include "tests/cli/program.hpp"
 
@@ -84,6 +87,37 @@ TEST(Ask, HoldsSeveralBounds) {
     const nlohmann::json tight =
         tree(both + std::to_string(run["latency/exposure_to_host_mean"].get<double>() * 0.9));
     EXPECT_GT(std::stod(tight["answer"].get<std::string>()), std::stod(slowest));
+  }
+}
+
+// The machine as it is lies above what holds, and both ends of what is looked at fail: against each value
+// by itself.
+TEST(Ask, FindsWhatLiesBetweenTwoBounds) {
+  const test::Program program;
+  const std::string holds =
+      " --hold performance/frame_rate>=8000 --hold performance/frame_rate<=9000 --json" + kMachine;
+  std::vector<double> held;
+  const nlohmann::json grid = nlohmann::json::parse(
+      program("ask least clocks.core_hz --vary clocks.core_hz=40e6:160e6:2e6" + holds).out);
+  for (const nlohmann::json& run : grid["runs"]) {
+    if (run["holds"]) held.push_back(std::stod(run["values"]["clocks.core_hz"].get<std::string>()));
+  }
+  ASSERT_FALSE(held.empty());
+  const auto [least, most] = std::minmax_element(held.begin(), held.end());
+  const auto answer = [&](const std::string& which, const std::string& start) {
+    const test::Outcome outcome = program("ask " + which + " clocks.core_hz --set clocks.core_hz=" + start +
+                                          " --from 20e6 --to 400e6" + holds);
+    EXPECT_EQ(outcome.code, 0) << outcome.out << outcome.err;
+    return std::stod(nlohmann::json::parse(outcome.out)["answer"].get<std::string>());
+  };
+  // Three digits are finer than the grid.
+  for (const char* start : {"20e6", "400e6"}) {
+    const double first = answer("least", start);
+    EXPECT_LE(first, *least) << start;
+    EXPECT_GT(first, *least - 2e6) << start;
+    const double last = answer("most", start);
+    EXPECT_GE(last, *most) << start;
+    EXPECT_LT(last, *most + 2e6) << start;
   }
 }
 
